@@ -1,0 +1,1 @@
+//! Benchmarks of the kernels; see `benches/benches`.

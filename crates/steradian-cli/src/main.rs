@@ -1,0 +1,2 @@
+//! The steradian command.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Batched ray queries.
