@@ -1,0 +1,80 @@
+//! What a change must pass, and the longer runs.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::steps::{Steps, cargo, succeed};
+use crate::{layers, licences, schema};
+
+const TESTS: &str = "steradian-tests";
+
+/// Format, lints, layers, licences, tests with documentation tests, quick statistics in release mode, generated files.
+pub fn test(root: &Path) -> Result<(), String> {
+    let run = |arguments: &[&str]| succeed(&mut cargo(root, arguments));
+    let mut steps = Steps::default();
+    steps.run("format", || run(&["fmt", "--all", "--check"]));
+    steps.run("layers", || layers::check(root));
+    steps.run("licences", || licences::check(root));
+    steps.run("lints", || {
+        run(&[
+            "clippy",
+            "--quiet",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ])
+    });
+    steps.run("tests", || run(&["test", "--quiet", "--workspace"]));
+    steps.run("generated files", || schema::check(root));
+    steps.run("documentation", || docs(root));
+    advisories(root, &mut steps);
+    steps.finish()
+}
+
+/// The statistical tests at full count, optimised: those marked `#[ignore]`.
+pub fn statistics(root: &Path) -> Result<(), String> {
+    succeed(&mut cargo(
+        root,
+        &[
+            "test",
+            "--release",
+            "--package",
+            TESTS,
+            "--",
+            "--ignored",
+            "--nocapture",
+        ],
+    ))
+}
+
+/// The benchmarks, all or those whose name holds a filter.
+pub fn bench(root: &Path, filter: &[&str]) -> Result<(), String> {
+    succeed(cargo(root, &["bench", "--package", "steradian-benches", "--"]).args(filter))
+}
+
+/// The documentation, with broken links refused.
+pub fn docs(root: &Path) -> Result<(), String> {
+    let arguments = [
+        "doc",
+        "--quiet",
+        "--workspace",
+        "--no-deps",
+        "--exclude",
+        "xtask",
+    ];
+    succeed(cargo(root, &arguments).env("RUSTDOCFLAGS", "-D warnings"))
+}
+
+/// Known vulnerabilities, where cargo-deny is installed.
+fn advisories(root: &Path, steps: &mut Steps) {
+    let installed = Command::new("cargo-deny").arg("--version").output();
+    if installed.is_ok_and(|output| output.status.success()) {
+        steps.run("advisories", || {
+            succeed(&mut cargo(root, &["deny", "check", "advisories"]))
+        });
+    } else {
+        steps.skip("advisories", "cargo-deny is not installed");
+    }
+}
