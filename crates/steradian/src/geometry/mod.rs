@@ -1,1 +1,27 @@
-//! geometry
+//! Geometry in `f64`: points and directions, frames, spherical coordinates, foreshortening, and the closed forms
+//! for solid angles and form factors.
+//!
+//! Right-handed coordinates in metres with Z up. Nothing here knows of light: [`solid_angle`] and [`form_factor`]
+//! give numbers that other modules multiply with radiance.
+
+pub mod form_factor;
+pub mod solid_angle;
+
+mod bounds;
+mod foreshortening;
+mod frame;
+mod point;
+mod polygon;
+mod spherical;
+mod transform;
+
+#[cfg(test)]
+mod testing;
+
+pub use bounds::Bounds;
+pub use foreshortening::SurfaceElement;
+pub use frame::Frame;
+pub use point::{Direction, NoDirection, Point, Vector};
+pub use polygon::{Polygon, PolygonError};
+pub use spherical::{PatchError, Spherical, SphericalPatch};
+pub use transform::Transform;

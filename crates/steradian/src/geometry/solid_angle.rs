@@ -1,0 +1,251 @@
+//! Solid angles in closed form.
+//!
+//! The solid angle of an object is the area of its projection onto the unit sphere around the observer,
+//! ω = ∫ cosθ dA / r².
+//!
+//! | object | ω | source |
+//! |---|---|---|
+//! | cap of half angle α | 4π sin²(α/2) = 2π (1 − cosα) | |
+//! | sphere, radius R at distance d | the cap with sinα = R/d | |
+//! | triangle a, b, c (from the observer) | tan(ω/2) = a·(b×c) / (abc + (a·b)c + (b·c)a + (c·a)b) | Van Oosterom & Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 30 (2), 1983, eq. 8 |
+//! | plane polygon | signed sum over a fan of triangles | |
+//!
+//! The patch of latitude and longitude is [`SphericalPatch`](super::SphericalPatch), the small patch
+//! [`SolidAngle::of_patch`].
+//!
+//! Flat objects have the same solid angle from both sides. As the observer comes to the plane, it tends to 0 outside the
+//! outline and to 2π inside; in the plane itself these limits are returned, and 0 at a corner.
+//!
+//! Precision: relative errors are some 2⁻⁵² for objects of any smallness seen face on, because the triple product is
+//! formed from the edges; close to edge-on the absolute error of cosθ, some 2⁻⁵², remains.
+//!
+//! ```
+//! use steradian::geometry::{solid_angle, Point};
+//! use std::f64::consts::PI;
+//! // The corner of a cube sees the opposite three faces in an octant: a face seen from the opposite corner fills π/6.
+//! let face = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)].map(|(x, y)| Point::new(x, y, 1.0));
+//! let found = solid_angle::of_polygon(Point::ORIGIN, &face).to_steradians();
+//! assert!((found - PI / 6.0).abs() < 1e-15);
+//! ```
+
+use std::f64::consts::PI;
+
+use super::point::{Point, Vector};
+use crate::quantity::{Angle, Length, SolidAngle};
+
+/// The solid angle of a cone of directions: 2π (1 − cosα), to full relative precision for narrow cones.
+///
+/// ```
+/// use steradian::geometry::solid_angle;
+/// use steradian::quantity::{Angle, SolidAngle};
+/// let cone = solid_angle::of_cap(Angle::from_degrees(60.0)); // 2π (1 − ½)
+/// assert!((cone / SolidAngle::HEMISPHERE - 0.5).abs() < 1e-15);
+/// ```
+pub fn of_cap(half_angle: Angle) -> SolidAngle {
+    let sin = (half_angle / 2.0).sin();
+    SolidAngle::from_steradians(4.0 * PI * sin * sin)
+}
+
+/// The solid angle of a sphere: 2π (1 − √(1 − R²/d²)) from outside, 2π on its surface, 4π from inside.
+///
+/// A sphere of no or negative radius, or of NaN, fills nothing.
+pub fn of_sphere(observer: Point, center: Point, radius: Length) -> SolidAngle {
+    let (distance, radius) = (observer.distance(center).to_metres(), radius.to_metres());
+    if radius.is_nan() || radius <= 0.0 {
+        return SolidAngle::ZERO;
+    }
+    if distance < radius {
+        return SolidAngle::SPHERE;
+    }
+    let sin = radius / distance;
+    let cos = ((distance - radius) * (distance + radius)).sqrt() / distance;
+    // 1 − cosα = sin²α / (1 + cosα) has no cancellation.
+    SolidAngle::from_steradians(2.0 * PI * sin * sin / (1.0 + cos))
+}
+
+/// The solid angle of a triangle, at most 2π.
+pub fn of_triangle(observer: Point, corners: [Point; 3]) -> SolidAngle {
+    SolidAngle::from_steradians(signed(observer, corners).abs())
+}
+
+/// The solid angle of a plane polygon, convex or not, from its outline. An outline of fewer than three points fills
+/// nothing.
+pub fn of_polygon(observer: Point, outline: &[Point]) -> SolidAngle {
+    let sum: f64 = match outline {
+        [apex, rest @ ..] => rest
+            .windows(2)
+            .map(|edge| signed(observer, [*apex, edge[0], edge[1]]))
+            .sum(),
+        [] => 0.0,
+    };
+    SolidAngle::from_steradians(sum.abs())
+}
+
+/// Positive if the corners run clockwise as seen by the observer, in which case (b − a) × (c − a) points away.
+fn signed(observer: Point, corners: [Point; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| corner - observer);
+    let [la, lb, lc] = [a, b, c].map(Vector::length);
+    let volume = a.dot((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+    let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    2.0 * libm::atan2(volume, denominator)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::testing::{any_vector, close};
+    use proptest::prelude::*;
+
+    fn point(x: f64, y: f64, z: f64) -> Point {
+        Point::new(x, y, z)
+    }
+
+    #[test]
+    fn an_octant_is_an_eighth_of_the_sphere() {
+        let corners = [
+            point(1.0, 0.0, 0.0),
+            point(0.0, 2.0, 0.0),
+            point(0.0, 0.0, 3.0),
+        ];
+        assert!(close(
+            of_triangle(Point::ORIGIN, corners) / SolidAngle::SPHERE,
+            0.125,
+            1e-16
+        ));
+    }
+
+    #[test]
+    fn a_rectangle_over_its_centre() {
+        // ω = 4 asin(ab / √((a² + h²)(b² + h²))) for half sides a, b at height h.
+        let (a, b, h) = (1.5, 0.5, 2.0_f64);
+        let outline = [(-a, -b), (a, -b), (a, b), (-a, b)].map(|(x, y)| point(x, y, h));
+        let expected = 4.0 * libm::asin(a * b / ((a * a + h * h) * (b * b + h * h)).sqrt());
+        assert!(close(
+            of_polygon(Point::ORIGIN, &outline).to_steradians(),
+            expected,
+            1e-15
+        ));
+    }
+
+    #[test]
+    fn a_tiny_or_far_triangle_keeps_its_digits() {
+        let corners = [
+            point(0.0, 0.0, 1.0),
+            point(1e-8, 0.0, 1.0),
+            point(0.0, 1e-8, 1.0),
+        ];
+        assert!(close(
+            of_triangle(Point::ORIGIN, corners).to_steradians() / 0.5e-16,
+            1.0,
+            1e-15
+        ));
+    }
+
+    #[test]
+    fn in_the_plane_the_limits_are_returned() {
+        let triangle = [
+            point(0.0, 0.0, 0.0),
+            point(1.0, 0.0, 0.0),
+            point(0.0, 1.0, 0.0),
+        ];
+        assert_eq!(
+            of_triangle(point(0.25, 0.25, 0.0), triangle),
+            SolidAngle::HEMISPHERE
+        );
+        assert_eq!(
+            of_triangle(point(1.0, 1.0, 0.0), triangle),
+            SolidAngle::ZERO
+        );
+        assert_eq!(of_triangle(triangle[1], triangle), SolidAngle::ZERO);
+        let near = of_triangle(point(0.25, 0.25, 1e-12), triangle);
+        assert!(close(near.to_steradians(), 2.0 * PI, 1e-10));
+        assert_eq!(of_polygon(Point::ORIGIN, &triangle[..2]), SolidAngle::ZERO);
+        assert_eq!(of_polygon(Point::ORIGIN, &[]), SolidAngle::ZERO);
+    }
+
+    #[test]
+    fn spheres_from_outside_on_and_inside() {
+        let sphere = |distance, radius| {
+            of_sphere(
+                Point::ORIGIN,
+                point(distance, 0.0, 0.0),
+                Length::from_metres(radius),
+            )
+        };
+        // sinα = ½, α = 30°.
+        assert!(close(
+            sphere(2.0, 1.0) / of_cap(Angle::from_degrees(30.0)),
+            1.0,
+            1e-15
+        ));
+        assert!(close(
+            sphere(1e9, 1.0).to_steradians() / (PI * 1e-18),
+            1.0,
+            1e-15
+        ));
+        assert_eq!(sphere(1.0, 1.0), SolidAngle::HEMISPHERE);
+        assert_eq!(sphere(0.5, 1.0), SolidAngle::SPHERE);
+        assert_eq!(sphere(1.0, 0.0), SolidAngle::ZERO);
+        assert_eq!(sphere(1.0, f64::NAN), SolidAngle::ZERO);
+    }
+
+    #[test]
+    fn a_concave_outline_is_its_parts() {
+        let outline = [
+            (0.0, 0.0),
+            (2.0, 0.0),
+            (2.0, 1.0),
+            (1.0, 1.0),
+            (1.0, 2.0),
+            (0.0, 2.0),
+        ]
+        .map(|(x, y)| point(x, y, 1.0));
+        let rectangle = |x: [f64; 2], y: [f64; 2]| {
+            of_polygon(
+                Point::ORIGIN,
+                &[(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| point(x[i], y[j], 1.0)),
+            )
+        };
+        let parts = rectangle([0.0, 2.0], [0.0, 1.0]) + rectangle([0.0, 1.0], [1.0, 2.0]);
+        for start in 0..6 {
+            let mut turned = outline;
+            turned.rotate_left(start);
+            assert!(close(
+                of_polygon(Point::ORIGIN, &turned) / parts,
+                1.0,
+                1e-15
+            ));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_faces_of_a_tetrahedron_close_the_sphere_around_its_inside(
+            corners in prop::array::uniform4(any_vector(1.0)),
+            weights in prop::array::uniform4(0.05..1.0_f64),
+        ) {
+            let corners = corners.map(|v| Point::ORIGIN + v);
+            let [a, b, c, d] = corners;
+            prop_assume!((b - a).cross(c - a).dot(d - a).abs() > 1e-3);
+            let total: f64 = weights.iter().sum();
+            let inside = corners.iter().zip(weights)
+                .fold(Point::ORIGIN, |sum, (corner, weight)| sum + corner.to_vector() * (weight / total));
+            let sum: SolidAngle =
+                [[a, b, c], [a, b, d], [a, c, d], [b, c, d]].map(|face| of_triangle(inside, face)).into_iter().sum();
+            prop_assert!(close(sum / SolidAngle::SPHERE, 1.0, 1e-12));
+        }
+
+        #[test]
+        fn splitting_a_triangle_does_not_change_it(
+            corners in prop::array::uniform3(any_vector(1.0)), t in 0.0..1.0_f64, eye in any_vector(2.0)
+        ) {
+            let [a, b, c] = corners.map(|v| Point::ORIGIN + v);
+            let eye = Point::ORIGIN + eye;
+            let middle = b.lerp(c, t);
+            let parts = of_triangle(eye, [a, b, middle]) + of_triangle(eye, [a, middle, c]);
+            let normal = (b - a).cross(c - a);
+            prop_assume!(normal.dot(eye - a).abs() > 1e-2 * normal.length());
+            prop_assert!(close(parts.to_steradians(), of_triangle(eye, [a, b, c]).to_steradians(), 1e-12));
+        }
+    }
+}
