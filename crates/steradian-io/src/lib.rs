@@ -1,1 +1,3 @@
 //! Scene files in, reports out.
+
+pub mod report;

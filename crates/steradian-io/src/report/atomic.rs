@@ -1,0 +1,74 @@
+//! A file appears under its name whole or not at all.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::error::ReportError;
+
+/// Writes `bytes` to a temporary name in the same folder and renames it to `path`.
+///
+/// On any error the temporary file is removed and an older file at `path` is untouched.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
+    let partial = partial_name(path);
+    let written = write_through(&partial, bytes).and_then(|()| fs::rename(&partial, path));
+    written.map_err(|source| {
+        // The temporary file may not exist; the first error is the one to tell.
+        let _ = fs::remove_file(&partial);
+        ReportError::Write {
+            path: path.to_owned(),
+            source,
+        }
+    })
+}
+
+fn write_through(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = fs::File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// `folder/name.ext` becomes `folder/.name.ext.1234.part`, 1234 being the process.
+fn partial_name(path: &Path) -> PathBuf {
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(format!(".{}.part", std::process::id()));
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder =
+            std::env::temp_dir().join(format!("steradian-atomic-{name}-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    #[test]
+    fn replaces_a_file_and_leaves_nothing_else() {
+        let folder = folder("replace");
+        let path = folder.join("a b.json");
+        fs::write(&path, "old").unwrap();
+        write_atomically(&path, b"new").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_failure_names_the_file_and_leaves_nothing() {
+        let folder = folder("failure");
+        let taken = folder.join("taken");
+        fs::create_dir_all(taken.join("inside")).unwrap();
+        let error = write_atomically(&taken, b"new").unwrap_err();
+        assert!(error.to_string().contains("taken"));
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        let missing = folder.join("no such folder").join("x.json");
+        assert!(write_atomically(&missing, b"new").is_err());
+        fs::remove_dir_all(folder).unwrap();
+    }
+}

@@ -1,0 +1,21 @@
+//! Results out: tables, JSON and CSV of readings; EXR, PFM, HDR and PNG pictures; shards.
+//!
+//! Every encoder turns a result into bytes or text and touches no file; [`write_atomically`] puts bytes under a name in
+//! one step, so that a run that stops half-way leaves no half-written output. The same result gives the same bytes.
+
+pub mod atomic;
+pub mod error;
+pub mod exr;
+pub mod false_colour;
+pub mod glyphs;
+pub mod hdr;
+pub mod image;
+pub mod pfm;
+pub mod png;
+pub mod shard;
+pub mod tone;
+
+pub use atomic::write_atomically;
+pub use error::ReportError;
+pub use image::{Channel, ImageFacts, PixelQuantity, RadianceImage};
+pub use shard::Shard;
