@@ -98,7 +98,7 @@ mod tests {
             .channel_data
             .list
             .iter()
-            .find(|channel| channel.name == name);
+            .find(|channel| channel.name == *name);
         named.unwrap().sample_data.values_as_f32().collect()
     }
 
