@@ -30,7 +30,8 @@
 //! assert!((aside.to_steradians() - 0.01 * 0.8 / 25.0).abs() < 1e-18);
 //! ```
 
-use super::point::{Direction, Point};
+use super::direction::Direction;
+use super::point::Point;
 use crate::quantity::{Area, SolidAngle};
 
 /// A small piece of a surface.
@@ -100,7 +101,7 @@ mod tests {
                 area: Area::from_square_metres(4.5 * size * size),
                 ..ELEMENT
             };
-            let observer = Point::ORIGIN + towards;
+            let observer = Point::ORIGIN + towards.to_vector();
             element.solid_angle_from(observer) / solid_angle::of_triangle(observer, corners) - 1.0
         };
         assert!(close(error(1e-2), 0.0, 1e-3));

@@ -21,7 +21,7 @@
 //! matter. An element in the polygon's plane sees nothing of it unless it lies inside, where the limit from above the
 //! element's normal is 1; on an edge the factor has no limit, and a value between 0 and 1 is returned.
 //!
-//! Precision: absolute errors of some 2⁻⁵² for each edge.
+//! Precision: absolute errors of some 2⁻⁵² for each edge, also upwards of 1.
 //!
 //! ```
 //! use steradian::geometry::{form_factor, Direction, Point};
@@ -33,7 +33,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::point::{Direction, Point, Vector};
+use super::direction::Direction;
+use super::point::{Point, Vector};
 use crate::quantity::ProjectedSolidAngle;
 
 /// The configuration factor of a plane polygon from the element at `position`, by its outline. An outline of fewer
@@ -44,7 +45,7 @@ pub fn of_polygon(position: Point, normal: Direction, outline: &[Point]) -> f64 
     let sum: f64 = edges(&visible)
         .map(|(from, to)| edge_term(normal, from, to))
         .sum();
-    (sum.abs() / TAU).min(1.0)
+    sum.abs() / TAU
 }
 
 /// Ω = π F: the projected solid angle of a plane polygon, by its outline.
@@ -192,7 +193,7 @@ mod tests {
             let [a, b, c] = corners.map(|v| Point::ORIGIN + v);
             let forth = of_polygon(Point::ORIGIN, n, &[a, b, c]);
             prop_assert!(close(forth, of_polygon(Point::ORIGIN, n, &[c, b, a]), 1e-14));
-            prop_assert!((0.0..=1.0).contains(&forth));
+            prop_assert!((0.0..=1.0 + 1e-14).contains(&forth));
         }
     }
 }

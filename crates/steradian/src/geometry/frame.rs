@@ -7,7 +7,8 @@
 //! "Building an Orthonormal Basis, Revisited", JCGT 6 (1), 2017, listing 3. The tangents turn continuously with
 //! the normal except where it crosses the plane z = 0.
 
-use super::point::{Direction, Vector};
+use super::direction::Direction;
+use super::point::Vector;
 
 /// Three perpendicular directions, right-handed: tangent × bitangent = normal.
 ///

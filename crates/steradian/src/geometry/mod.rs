@@ -8,6 +8,7 @@ pub mod form_factor;
 pub mod solid_angle;
 
 mod bounds;
+mod direction;
 mod foreshortening;
 mod frame;
 mod point;
@@ -19,9 +20,10 @@ mod transform;
 mod testing;
 
 pub use bounds::Bounds;
+pub use direction::{Direction, NoDirection};
 pub use foreshortening::SurfaceElement;
 pub use frame::Frame;
-pub use point::{Direction, NoDirection, Point, Vector};
+pub use point::{Point, Vector};
 pub use polygon::{Polygon, PolygonError};
 pub use spherical::{PatchError, Spherical, SphericalPatch};
 pub use transform::Transform;

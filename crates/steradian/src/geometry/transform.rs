@@ -14,7 +14,8 @@
 //! assert!(image.distance(Point::new(1.0, 1.0, 5.0)).to_metres() < 1e-15);
 //! ```
 
-use super::point::{Direction, NoDirection, Point, Vector};
+use super::direction::{Direction, NoDirection};
+use super::point::{Point, Vector};
 use crate::quantity::Angle;
 
 /// An affine transform of space.
@@ -159,7 +160,7 @@ impl Transform {
     /// spheres and discs stay discs.
     ///
     /// ```
-    /// use steradian::geometry::{Transform};
+    /// use steradian::geometry::Transform;
     /// assert_eq!(Transform::scale(-2.0).similarity_scale(), Some(2.0));
     /// assert_eq!(Transform::scale_axes([1.0, 1.0, 2.0]).similarity_scale(), None);
     /// ```

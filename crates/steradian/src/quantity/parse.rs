@@ -278,6 +278,7 @@ fn with_article(noun: &str) -> String {
 mod tests {
     use super::*;
     use ParseQuantityError::{MissingUnit, NotANumber, NotFinite, UnknownUnit};
+    use proptest::prelude::*;
 
     #[test]
     fn numbers_and_units_are_read_with_or_without_space() {
@@ -352,6 +353,43 @@ mod tests {
             message("five"),
             format!("{expected} \"five\", which does not begin with a number")
         );
+    }
+
+    #[test]
+    fn every_table_reads_its_own_example_and_each_spelling_as_one_unit() {
+        for table in KNOWN_TABLES {
+            assert!(table.parse(table.example).is_ok(), "{}", table.quantity);
+            assert_eq!(
+                table.find(table.si).map(|unit| unit.to_si(1.0)),
+                Some(1.0),
+                "{}",
+                table.quantity
+            );
+            for unit in table.units {
+                for spelling in unit.aliases.iter().chain([&unit.symbol]) {
+                    assert_eq!(table.find(spelling), Some(unit), "{spelling}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn deep_parentheses_are_refused() {
+        assert!(matches!(
+            format!("1 {}", "(".repeat(1_000_000)).parse::<Length>(),
+            Err(UnknownUnit { .. })
+        ));
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_is_a_panic(text in any::<String>(), tail in "[0-9eE.+ -]{0,6}[W/()m^2² sr-]{0,80}") {
+            for text in [&text, &tail, &format!("1{text}")] {
+                if let Ok(intensity) = text.parse::<Intensity>() {
+                    prop_assert!(intensity.is_finite());
+                }
+            }
+        }
     }
 
     #[test]

@@ -99,7 +99,12 @@ struct Factors(Vec<(String, i32)>);
 impl Factors {
     /// Reads `factor { separator factor }`, where a factor is a symbol with an optional exponent or a group in
     /// parentheses; `/` inverts the one factor or group that follows it, so "W/m2 sr" is W sr/m².
+    ///
+    /// Text longer than any unit is refused, which bounds the depth of parentheses.
     fn of(text: &str) -> Option<Self> {
+        if text.len() > 64 {
+            return None;
+        }
         let text: Vec<char> = text.trim().chars().flat_map(plain_characters).collect();
         let mut reader = FactorReader {
             text: &text,

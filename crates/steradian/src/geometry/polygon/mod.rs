@@ -21,11 +21,16 @@
 //! # Ok::<(), steradian::geometry::PolygonError>(())
 //! ```
 
+mod validity;
+
 use super::bounds::Bounds;
+use super::direction::Direction;
 use super::frame::Frame;
-use super::point::{Direction, Point, Vector};
+use super::point::{Point, Vector};
 use super::transform::Transform;
 use crate::quantity::{Area, Length};
+pub use validity::PolygonError;
+use validity::{check_planar, check_vertices};
 
 /// A polygon in a plane, with its triangles.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,54 +42,6 @@ pub struct Polygon {
     normal: Direction,
     area: Area,
     triangles: Vec<[u32; 3]>,
-}
-
-/// Why points are no polygon. Ring 0 is the outline, ring k the k-th hole.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PolygonError {
-    /// A ring of fewer than three vertices.
-    #[error("{} has {count} vertices, but needs at least 3", ring_name(*ring))]
-    TooFewVertices {
-        /// Which ring.
-        ring: usize,
-        /// How many it has.
-        count: usize,
-    },
-    /// An infinite or NaN coordinate.
-    #[error("vertex {vertex} of {} is not finite", ring_name(*ring))]
-    NotFinite {
-        /// Which ring.
-        ring: usize,
-        /// Which vertex of the ring, from 0.
-        vertex: usize,
-    },
-    /// All vertices on a line or in a point, or holes as large as the outline.
-    #[error("the polygon has no area")]
-    ZeroArea,
-    /// A vertex that lies off the plane.
-    #[error("vertex {vertex} of {} lies {distance} off the plane of the polygon; at most {tolerance} is allowed", ring_name(*ring))]
-    NotPlanar {
-        /// The ring of the worst vertex.
-        ring: usize,
-        /// The worst vertex, from 0 in its ring.
-        vertex: usize,
-        /// How far it lies off.
-        distance: Length,
-        /// How far it may lie off.
-        tolerance: Length,
-    },
-    /// Edges that cross, or a hole that is not inside.
-    #[error("edges of the polygon cross, or a hole is not inside the outline or overlaps another")]
-    CrossingEdges,
-}
-
-fn ring_name(ring: usize) -> String {
-    if ring == 0 {
-        "the outline".to_owned()
-    } else {
-        format!("hole {ring}")
-    }
 }
 
 impl Polygon {
@@ -227,54 +184,16 @@ impl Polygon {
             }
             ring
         };
-        Self::new(image(self.outline()), self.holes().map(image).collect())
+        // An affine image of a plane is a plane: there is nothing to check.
+        let tolerance = Length::from_metres(f64::INFINITY);
+        let holes = self.holes().map(image).collect();
+        Self::with_tolerance(image(self.outline()), holes, tolerance)
     }
 
     /// Of the triangles' projections onto the plane.
     fn area_of_triangles(&self) -> Area {
         let area = |corners: [Point; 3]| self.normal.dot(area_vector(&corners));
         Area::from_square_metres(self.triangle_corners().map(area).sum())
-    }
-}
-
-fn check_vertices(rings: &[Vec<Point>]) -> Result<(), PolygonError> {
-    for (ring, vertices) in rings.iter().enumerate() {
-        if vertices.len() < 3 {
-            return Err(PolygonError::TooFewVertices {
-                ring,
-                count: vertices.len(),
-            });
-        }
-        if let Some(vertex) = vertices.iter().position(|vertex| !vertex.is_finite()) {
-            return Err(PolygonError::NotFinite { ring, vertex });
-        }
-    }
-    Ok(())
-}
-
-fn check_planar(
-    rings: &[Vec<Point>],
-    normal: Direction,
-    tolerance: Length,
-) -> Result<(), PolygonError> {
-    let outline = &rings[0];
-    let height = |vertex: &Point| normal.dot(*vertex - outline[0]);
-    let level = outline.iter().map(height).sum::<f64>() / outline.len() as f64;
-    let heights = rings.iter().enumerate().flat_map(|(ring, vertices)| {
-        vertices
-            .iter()
-            .enumerate()
-            .map(move |(index, vertex)| (ring, index, (height(vertex) - level).abs()))
-    });
-    let worst = heights.max_by(|a, b| a.2.total_cmp(&b.2));
-    match worst.map(|(ring, vertex, off)| (ring, vertex, Length::from_metres(off))) {
-        Some((ring, vertex, distance)) if distance > tolerance => Err(PolygonError::NotPlanar {
-            ring,
-            vertex,
-            distance,
-            tolerance,
-        }),
-        _ => Ok(()),
     }
 }
 
