@@ -22,6 +22,7 @@
 //! ```
 
 mod validity;
+mod view;
 
 use super::bounds::Bounds;
 use super::direction::Direction;
