@@ -14,10 +14,11 @@
 //! [`SolidAngle::of_patch`].
 //!
 //! Flat objects have the same solid angle from both sides. As the observer comes to the plane, it tends to 0 outside the
-//! outline and to 2π inside; in the plane itself these limits are returned, and 0 at a corner.
+//! outline and to 2π inside. In the plane itself an object is edge-on and fills 0.
 //!
 //! Precision: relative errors are some 2⁻⁵² for objects of any smallness seen face on, because the triple product is
-//! formed from the edges; close to edge-on the absolute error of cosθ, some 2⁻⁵², remains.
+//! formed from the edges. Close to the plane the absolute error grows as 2⁻⁵² size/height, because each triangle of a
+//! fan reacts that much to a shift of an edge right below the observer.
 //!
 //! ```
 //! use steradian::geometry::{solid_angle, Point};
@@ -86,6 +87,9 @@ fn signed(observer: Point, corners: [Point; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| corner - observer);
     let [la, lb, lc] = [a, b, c].map(Vector::length);
     let volume = a.dot((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+    if volume == 0.0 {
+        return 0.0;
+    }
     let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     2.0 * libm::atan2(volume, denominator)
 }
@@ -142,21 +146,15 @@ mod tests {
     }
 
     #[test]
-    fn in_the_plane_the_limits_are_returned() {
+    fn in_the_plane_an_object_is_edge_on() {
         let triangle = [
             point(0.0, 0.0, 0.0),
             point(1.0, 0.0, 0.0),
             point(0.0, 1.0, 0.0),
         ];
-        assert_eq!(
-            of_triangle(point(0.25, 0.25, 0.0), triangle),
-            SolidAngle::HEMISPHERE
-        );
-        assert_eq!(
-            of_triangle(point(1.0, 1.0, 0.0), triangle),
-            SolidAngle::ZERO
-        );
-        assert_eq!(of_triangle(triangle[1], triangle), SolidAngle::ZERO);
+        for observer in [point(0.25, 0.25, 0.0), point(1.0, 1.0, 0.0), triangle[1]] {
+            assert_eq!(of_triangle(observer, triangle), SolidAngle::ZERO);
+        }
         let near = of_triangle(point(0.25, 0.25, 1e-12), triangle);
         assert!(close(near.to_steradians(), 2.0 * PI, 1e-10));
         assert_eq!(of_polygon(Point::ORIGIN, &triangle[..2]), SolidAngle::ZERO);

@@ -9,14 +9,13 @@ impl Polygon {
     ///
     /// ```
     /// use steradian::geometry::{Point, Polygon};
-    /// use steradian::quantity::SolidAngle;
     /// let square = |half: f64| {
     ///     [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| Point::new(x, y, 0.0)).to_vec()
     /// };
-    /// // A square fills a sixth of the view at half its side, so all but a sixth of the half space at this frame.
-    /// let frame = Polygon::new(square(1e12), vec![square(1.0)])?;
-    /// let found = frame.solid_angle_from(Point::new(0.0, 0.0, 1.0)) / SolidAngle::SPHERE;
-    /// assert!((found - (1.0 / 2.0 - 1.0 / 6.0)).abs() < 1e-11);
+    /// // A square of half side a, seen from the height h over its centre, fills 4 asin(a²/(a² + h²)).
+    /// let frame = Polygon::new(square(2.0), vec![square(1.0)])?;
+    /// let found = frame.solid_angle_from(Point::new(0.0, 0.0, 1.0));
+    /// assert!((found.to_steradians() - 1.614785769613).abs() < 1e-12); // 4 (asin(4/5) − asin(1/2))
     /// # Ok::<(), steradian::geometry::PolygonError>(())
     /// ```
     pub fn solid_angle_from(&self, observer: Point) -> SolidAngle {
