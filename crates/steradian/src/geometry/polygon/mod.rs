@@ -345,7 +345,23 @@ mod tests {
         assert_eq!(flattened, Err(PolygonError::ZeroArea));
     }
 
+    fn any_ring() -> impl Strategy<Value = Vec<Point>> {
+        let corner =
+            (0..5_i32, 0..5_i32).prop_map(|(x, y)| Point::new(f64::from(x), f64::from(y), 0.0));
+        prop::collection::vec(corner, 0..9)
+    }
+
     proptest! {
+        #[test]
+        fn rings_on_a_small_grid_are_covered_once_or_refused(
+            outline in any_ring(), holes in prop::collection::vec(any_ring(), 0..3),
+        ) {
+            if let Ok(polygon) = Polygon::new(outline, holes) {
+                prop_assert!(close(polygon.area_of_triangles() / polygon.area(), 1.0, 1e-9));
+                prop_assert!(polygon.triangle_corners().all(|c| polygon.normal().dot(area_vector(&c)) >= 0.0));
+            }
+        }
+
         #[test]
         fn stars_have_the_area_of_their_sectors(
             radii in prop::collection::vec(0.2..2.0_f64, 3..40),
