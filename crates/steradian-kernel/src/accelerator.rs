@@ -1,0 +1,328 @@
+//! The public face: build once, then ask in batches.
+
+use crate::batch::{Hit, HitBatch, Ray, RayBatch};
+use crate::collapse::{Item, WideTree};
+use crate::geometry::{BuildError, Geometry, Quadric};
+use crate::instruction_set::{InstructionSet, Kernel};
+use crate::node::{Bounds, Leaf, Node, WIDTH, bounds_of_hittable};
+use crate::prepared_ray::PreparedRay;
+use crate::region;
+use crate::simd::Simd;
+use crate::small_scene::SmallScene;
+use crate::traversal::{self, Closest, Target};
+use crate::triangle;
+
+/// With more quadrics than this a tree is faster than trying all.
+const MOST_QUADRICS_WITHOUT_TREE: usize = 4;
+
+/// A scene prepared for ray queries. Triangles are primitives 0 .. T in input order, quadrics T .. T + Q.
+#[derive(Clone)]
+pub struct Accelerator {
+    /// All triangles that can be hit and all bounded quadrics.
+    tree: WideTree,
+    bounds: Bounds,
+    quadrics: Vec<Quadric>,
+    /// Planes, by index.
+    unbounded: Vec<u32>,
+    triangle_count: usize,
+    /// The triangles once more, if there are only a few primitives.
+    small: Option<SmallScene>,
+}
+
+impl Accelerator {
+    /// Checks the geometry and builds the tree. Triangles whose corners lie on a line are kept as numbers but never hit.
+    ///
+    /// # Errors
+    /// [`BuildError`] names the first vertex, triangle or quadric that cannot be used.
+    pub fn build(geometry: &Geometry) -> Result<Self, BuildError> {
+        geometry.validate()?;
+        let corners = |triangle: u32| geometry.corners(triangle as usize);
+        let hittable: Vec<(Bounds, u32)> = (0..geometry.triangles.len() as u32)
+            .filter_map(|triangle| Some((bounds_of_hittable(corners(triangle))?, triangle)))
+            .collect();
+        let (mut boxes, mut items): (Vec<_>, Vec<_>) = hittable
+            .iter()
+            .map(|&(bounds, triangle)| (bounds, Item::Triangle(triangle)))
+            .unzip();
+        let mut unbounded = Vec::new();
+        for (index, quadric) in (0..).zip(&geometry.quadrics) {
+            match quadric.bounds() {
+                Some(bounds) => {
+                    boxes.push(bounds);
+                    items.push(Item::Quadric(index));
+                }
+                None => unbounded.push(index),
+            }
+        }
+        let is_small = geometry.quadrics.len() <= MOST_QUADRICS_WITHOUT_TREE;
+        let numbers: Vec<u32> = hittable.iter().map(|&(_, triangle)| triangle).collect();
+        Ok(Self {
+            tree: WideTree::build(&boxes, &items, corners),
+            bounds: boxes.into_iter().fold(Bounds::EMPTY, Bounds::union),
+            quadrics: geometry.quadrics.clone(),
+            unbounded,
+            triangle_count: geometry.triangles.len(),
+            small: is_small
+                .then(|| SmallScene::new(&numbers, corners))
+                .flatten(),
+        })
+    }
+
+    /// For each ray the hit with the smallest `(t, primitive)`, 0 < t ≤ t_max. `hits` gets as many rows as there are rays.
+    pub fn closest(&self, rays: &RayBatch, hits: &mut HitBatch, instruction_set: InstructionSet) {
+        hits.resize(rays.len());
+        instruction_set.dispatch(ClosestHits {
+            accelerator: self,
+            rays,
+            hits,
+        });
+    }
+
+    /// For each ray whether anything is in 0 < t < t_max. `occluded` gets as many rows as there are rays.
+    pub fn occluded(
+        &self,
+        rays: &RayBatch,
+        occluded: &mut Vec<bool>,
+        instruction_set: InstructionSet,
+    ) {
+        occluded.resize(rays.len(), false);
+        instruction_set.dispatch(Occlusions {
+            accelerator: self,
+            rays,
+            occluded,
+        });
+    }
+
+    /// The closest hit of one ray, the same bits as [`closest`](Self::closest) gives.
+    pub fn closest_scalar(&self, ray: &Ray) -> Hit {
+        let Some(prepared) = PreparedRay::new(ray) else {
+            return Hit::NONE;
+        };
+        let mut stack = traversal::stack_for(&self.tree);
+        self.closest_in_tree(crate::simd::Scalar, ray, &prepared, &mut stack)
+    }
+
+    /// The closest hit of one ray by trying all primitives: slow, and the judge of everything else here.
+    pub fn closest_brute_force(&self, ray: &Ray) -> Hit {
+        let Some(prepared) = PreparedRay::new(ray) else {
+            return Hit::NONE;
+        };
+        let mut closest = Closest::up_to(prepared.t_max);
+        for leaf in &self.tree.leaves {
+            for (lane, number) in leaf.lanes() {
+                if let Some(crossing) =
+                    triangle::intersect(&prepared.shear, leaf.triangle(lane, prepared.axes))
+                {
+                    closest.offer(number, crossing);
+                }
+            }
+        }
+        self.try_quadrics(0..self.quadrics.len(), ray, &mut closest);
+        closest.into_hit()
+    }
+
+    /// True only if no primitive, except those that `ignore` accepts, reaches into the convex region of the points x with
+    /// n · x ≤ d for every plane `[n_x, n_y, n_z, d]`.
+    ///
+    /// Touching counts. The answer may be false for a region that is clear by less than about 10⁻¹² of the coordinates,
+    /// near an edge of a curved primitive, or inside a sphere; it is never true for one that is blocked.
+    pub fn region_is_clear(&self, planes: &[[f64; 4]], ignore: &dyn Fn(u32) -> bool) -> bool {
+        region::is_clear(self, planes, ignore)
+    }
+
+    /// Lower and upper corner of the box around everything that has one; nothing if that is empty.
+    pub fn bounds(&self) -> Option<[[f32; 3]; 2]> {
+        (self.bounds != Bounds::EMPTY).then_some([self.bounds.lower, self.bounds.upper])
+    }
+
+    /// The number of triangles, degenerate ones too.
+    pub fn triangle_count(&self) -> usize {
+        self.triangle_count
+    }
+
+    /// Memory of the tree.
+    pub fn memory_bytes(&self) -> usize {
+        self.tree.nodes.len() * size_of::<Node>() + self.tree.leaves.len() * size_of::<Leaf>()
+    }
+
+    pub(crate) fn tree(&self) -> &WideTree {
+        &self.tree
+    }
+
+    pub(crate) fn quadrics(&self) -> &[Quadric] {
+        &self.quadrics
+    }
+
+    pub(crate) fn unbounded(&self) -> &[u32] {
+        &self.unbounded
+    }
+
+    /// The primitive number of a quadric.
+    #[inline(always)]
+    pub(crate) fn quadric_number(&self, index: usize) -> u32 {
+        (self.triangle_count + index) as u32
+    }
+
+    fn target(&self) -> Target<'_> {
+        Target {
+            tree: &self.tree,
+            bounds: &self.bounds,
+            quadrics: &self.quadrics,
+            first_quadric: self.quadric_number(0),
+        }
+    }
+
+    #[inline(always)]
+    fn closest_in_tree<S: Simd>(
+        &self,
+        set: S,
+        ray: &Ray,
+        prepared: &PreparedRay,
+        stack: &mut [u64],
+    ) -> Hit {
+        let mut closest = Closest::up_to(prepared.t_max);
+        self.try_quadrics(
+            self.unbounded.iter().map(|&index| index as usize),
+            ray,
+            &mut closest,
+        );
+        if !self.tree.nodes.is_empty() {
+            traversal::closest(set, self.target(), ray, prepared, stack, &mut closest);
+        }
+        closest.into_hit()
+    }
+
+    #[inline(always)]
+    fn try_quadrics(&self, indices: impl Iterator<Item = usize>, ray: &Ray, closest: &mut Closest) {
+        for index in indices {
+            if let Some(t) = self.quadrics[index].intersect(ray, closest.0.t) {
+                closest.offer(self.quadric_number(index), [t, 0.0, 0.0]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn occluded_by_quadrics(&self, mut indices: impl Iterator<Item = usize>, ray: &Ray) -> bool {
+        indices.any(|index| {
+            self.quadrics[index]
+                .intersect(ray, ray.t_max.next_down())
+                .is_some()
+        })
+    }
+}
+
+struct ClosestHits<'a> {
+    accelerator: &'a Accelerator,
+    rays: &'a RayBatch,
+    hits: &'a mut HitBatch,
+}
+
+impl Kernel for ClosestHits<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, set: S) {
+        let Self {
+            accelerator,
+            rays,
+            hits,
+        } = self;
+        let Some(small) = &accelerator.small else {
+            let mut stack = traversal::stack_for(&accelerator.tree);
+            for row in 0..rays.len() {
+                let ray = rays.ray(row);
+                let hit = PreparedRay::new(&ray)
+                    .map(|prepared| accelerator.closest_in_tree(set, &ray, &prepared, &mut stack));
+                hits.set(row, hit.unwrap_or(Hit::NONE));
+            }
+            return;
+        };
+        small.closest(set, rays, hits);
+        if !accelerator.quadrics.is_empty() {
+            for row in 0..rays.len() {
+                hits.set(
+                    row,
+                    accelerator.closest_quadric(&rays.ray(row), hits.hit(row)),
+                );
+            }
+        }
+    }
+}
+
+struct Occlusions<'a> {
+    accelerator: &'a Accelerator,
+    rays: &'a RayBatch,
+    occluded: &'a mut [bool],
+}
+
+impl Kernel for Occlusions<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, set: S) {
+        let Self {
+            accelerator,
+            rays,
+            occluded,
+        } = self;
+        let Some(small) = &accelerator.small else {
+            let mut stack = traversal::stack_for(&accelerator.tree);
+            for (row, occluded) in occluded.iter_mut().enumerate() {
+                let ray = rays.ray(row);
+                *occluded = PreparedRay::new(&ray).is_some_and(|prepared| {
+                    accelerator.occluded_in_tree(set, &ray, &prepared, &mut stack)
+                });
+            }
+            return;
+        };
+        small.occluded(set, rays, occluded);
+        if !accelerator.quadrics.is_empty() {
+            for (row, occluded) in occluded.iter_mut().enumerate() {
+                let ray = rays.ray(row);
+                *occluded = *occluded || accelerator.occluded_by_quadric(&ray);
+            }
+        }
+    }
+}
+
+impl Accelerator {
+    /// The better one of a hit on a triangle and all quadrics.
+    fn closest_quadric(&self, ray: &Ray, on_triangle: Hit) -> Hit {
+        let Some(prepared) = PreparedRay::new(ray) else {
+            return Hit::NONE;
+        };
+        let mut closest = Closest::up_to(prepared.t_max);
+        closest.offer(
+            on_triangle.primitive,
+            [on_triangle.t, on_triangle.u, on_triangle.v],
+        );
+        self.try_quadrics(0..self.quadrics.len(), ray, &mut closest);
+        closest.into_hit()
+    }
+
+    fn occluded_by_quadric(&self, ray: &Ray) -> bool {
+        PreparedRay::new(ray).is_some() && self.occluded_by_quadrics(0..self.quadrics.len(), ray)
+    }
+
+    #[inline(always)]
+    fn occluded_in_tree<S: Simd>(
+        &self,
+        set: S,
+        ray: &Ray,
+        prepared: &PreparedRay,
+        stack: &mut [u64],
+    ) -> bool {
+        self.occluded_by_quadrics(self.unbounded.iter().map(|&index| index as usize), ray)
+            || (!self.tree.nodes.is_empty()
+                && traversal::occluded(
+                    set,
+                    self.target(),
+                    ray,
+                    prepared,
+                    stack,
+                    ray.t_max.next_down(),
+                ))
+    }
+}
+
+const _: () = assert!(WIDTH == 8, "the vectors of `Simd::Eight` have eight lanes");

@@ -1,0 +1,166 @@
+//! Is a convex region free of primitives?
+//!
+//! The region is an intersection of half-spaces `n · x ≤ d`. A box or a curved primitive is outside if one plane separates
+//! it; a polygon, if nothing is left after clipping it by all planes (Sutherland & Hodgman 1974) in homogeneous coordinates,
+//! in which an infinite plane is four triangles with two corners at infinity each. Each comparison leaves a margin for its
+//! rounding on the side of "blocked".
+
+use crate::accelerator::Accelerator;
+use crate::geometry::Quadric;
+use crate::node::{Below, Bounds, Leaf, WIDTH};
+
+/// Relative to the sum of the magnitudes of a plane equation's terms.
+const MARGIN: f64 = 1e-12;
+
+/// A point `xyz/w`, or a direction for w = 0.
+type Homogeneous = [f64; 4];
+
+/// `[n_x, n_y, n_z, d]`.
+type HalfSpace = [f64; 4];
+
+pub(crate) fn is_clear(
+    accelerator: &Accelerator,
+    planes: &[HalfSpace],
+    ignore: &dyn Fn(u32) -> bool,
+) -> bool {
+    let quadric_blocks = |index: usize| {
+        !ignore(accelerator.quadric_number(index))
+            && reaches(&accelerator.quadrics()[index], planes)
+    };
+    if accelerator
+        .unbounded()
+        .iter()
+        .any(|&index| quadric_blocks(index as usize))
+    {
+        return false;
+    }
+    let tree = accelerator.tree();
+    let mut open: Vec<usize> = (0..tree.nodes.len().min(1)).collect();
+    while let Some(node) = open.pop() {
+        let node = &tree.nodes[node];
+        for lane in (0..WIDTH).filter(|&lane| node.children[lane].0 != u32::MAX) {
+            if is_outside(&node.bounds(lane), planes) {
+                continue;
+            }
+            let blocked = match node.children[lane].below() {
+                Below::Node(index) => {
+                    open.push(index);
+                    false
+                }
+                Below::Leaf(index) => leaf_blocks(&tree.leaves[index], planes, ignore),
+                Below::Quadric(index) => quadric_blocks(index),
+            };
+            if blocked {
+                return false;
+            }
+        }
+    }
+    true
+}
+
+fn leaf_blocks(leaf: &Leaf, planes: &[HalfSpace], ignore: &dyn Fn(u32) -> bool) -> bool {
+    leaf.lanes().any(|(lane, number)| {
+        let corners = leaf.triangle(lane, [0, 1, 2]);
+        !ignore(number)
+            && polygon_reaches(
+                corners
+                    .map(|[x, y, z]| [x.into(), y.into(), z.into(), 1.0])
+                    .to_vec(),
+                planes,
+            )
+    })
+}
+
+fn reaches(quadric: &Quadric, planes: &[HalfSpace]) -> bool {
+    match quadric {
+        Quadric::Plane { point, normal } => plane_triangles(*point, *normal)
+            .into_iter()
+            .any(|triangle| polygon_reaches(triangle.to_vec(), planes)),
+        bounded => !planes
+            .iter()
+            .any(|&[x, y, z, offset]| bounded.is_beyond([x, y, z], offset)),
+    }
+}
+
+/// The lowest corner of the box along a plane's normal is still outside.
+fn is_outside(bounds: &Bounds, planes: &[HalfSpace]) -> bool {
+    planes.iter().any(|plane| {
+        let lowest = [0, 1, 2].map(|k| {
+            f64::from(if plane[k] > 0.0 {
+                bounds.lower[k]
+            } else {
+                bounds.upper[k]
+            })
+        });
+        excess(plane, &[lowest[0], lowest[1], lowest[2], 1.0]) > 0.0
+    })
+}
+
+/// Positive if the point is certainly outside the half-space: n · x − d·w less the margin.
+fn excess(plane: &HalfSpace, point: &Homogeneous) -> f64 {
+    let terms = [
+        plane[0] * point[0],
+        plane[1] * point[1],
+        plane[2] * point[2],
+        -plane[3] * point[3],
+    ];
+    terms.iter().sum::<f64>() - MARGIN * terms.iter().map(|term| term.abs()).sum::<f64>()
+}
+
+/// Whether a point at a finite distance is left.
+fn polygon_reaches(mut polygon: Vec<Homogeneous>, planes: &[HalfSpace]) -> bool {
+    for plane in planes {
+        polygon = clip(&polygon, plane);
+    }
+    polygon.iter().any(|point| point[3] > 0.0)
+}
+
+/// The part of a polygon inside a half-space and its margin.
+fn clip(polygon: &[Homogeneous], plane: &HalfSpace) -> Vec<Homogeneous> {
+    let mut inside = Vec::with_capacity(polygon.len() + 1);
+    for (index, point) in polygon.iter().enumerate() {
+        let next = &polygon[(index + 1) % polygon.len()];
+        let (here, there) = (excess(plane, point), excess(plane, next));
+        if here <= 0.0 {
+            inside.push(*point);
+        }
+        if (here <= 0.0) != (there <= 0.0) {
+            let s = here / (here - there);
+            inside.push([0, 1, 2, 3].map(|k| point[k] + s * (next[k] - point[k])));
+        }
+    }
+    inside
+}
+
+/// Four sectors around `point`, each with two corners at infinity.
+fn plane_triangles(point: [f64; 3], normal: [f64; 3]) -> [[Homogeneous; 3]; 4] {
+    let smallest = (0..3)
+        .min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))
+        .unwrap_or(0);
+    let mut helper = [0.0; 3];
+    helper[smallest] = 1.0;
+    let e = unit(cross(normal, helper));
+    let f = unit(cross(normal, e));
+    let at_infinity = |v: [f64; 3], sign: f64| [sign * v[0], sign * v[1], sign * v[2], 0.0];
+    let center = [point[0], point[1], point[2], 1.0];
+    let around = [
+        at_infinity(e, 1.0),
+        at_infinity(f, 1.0),
+        at_infinity(e, -1.0),
+        at_infinity(f, -1.0),
+    ];
+    [0, 1, 2, 3].map(|k| [center, around[k], around[(k + 1) % 4]])
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / length)
+}

@@ -1,0 +1,374 @@
+//! Walks through the wide tree: one for the closest hit, one for any hit.
+//!
+//! The closest-hit walk goes to the nearest child first and keeps the others on a stack, sorted by where the ray enters
+//! them. A stack entry packs that `t` above the child's number: for non-negative numbers the order of the bits is the order of
+//! the values, so one integer comparison sorts.
+
+use crate::batch::{Hit, MISS, Ray};
+use crate::collapse::WideTree;
+use crate::geometry::Quadric;
+use crate::node::{Below, Bounds, Child, Leaf, Node, WIDTH};
+use crate::prepared_ray::{PreparedRay, Slabs};
+use crate::simd::{Floats, Mask, Simd};
+use crate::triangle::{Edges, Intersection, Shear, exact_intersection};
+
+/// What a walk reads.
+#[derive(Copy, Clone)]
+pub(crate) struct Target<'a> {
+    pub(crate) tree: &'a WideTree,
+    pub(crate) bounds: &'a Bounds,
+    pub(crate) quadrics: &'a [Quadric],
+    /// The number of triangles: the primitive number of the first quadric.
+    pub(crate) first_quadric: u32,
+}
+
+/// The closest hit so far; before the first one, `t` is the ray's last.
+#[derive(Copy, Clone)]
+pub(crate) struct Closest(pub(crate) Hit);
+
+impl Closest {
+    pub(crate) fn up_to(t_max: f32) -> Self {
+        Self(Hit {
+            t: t_max,
+            ..Hit::NONE
+        })
+    }
+
+    /// Equal `t` goes to the smaller primitive number; a hit at the ray's last `t` counts because [`MISS`] is the largest.
+    #[inline(always)]
+    pub(crate) fn accepts(&self, t: f32, primitive: u32) -> bool {
+        t > 0.0 && (t < self.0.t || (t == self.0.t && primitive < self.0.primitive))
+    }
+
+    #[inline(always)]
+    pub(crate) fn offer(&mut self, primitive: u32, [t, u, v]: [f32; 3]) {
+        if self.accepts(t, primitive) {
+            self.0 = Hit { t, u, v, primitive };
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn into_hit(self) -> Hit {
+        if self.0.primitive == MISS {
+            Hit::NONE
+        } else {
+            self.0
+        }
+    }
+}
+
+/// Room for the children that wait on the way down, enough for any ray through the tree.
+pub(crate) fn stack_for(tree: &WideTree) -> Vec<u64> {
+    vec![0; (WIDTH - 1) * tree.depth + WIDTH]
+}
+
+#[inline(always)]
+fn pack(entry: f32, child: Child) -> u64 {
+    u64::from(entry.to_bits()) << 32 | u64::from(child.0)
+}
+
+#[inline(always)]
+fn entry_of(packed: u64) -> f32 {
+    f32::from_bits((packed >> 32) as u32)
+}
+
+#[inline(always)]
+fn child_of(packed: u64) -> Child {
+    Child(packed as u32)
+}
+
+/// Improves `closest` by everything in the tree.
+#[inline(always)]
+pub(crate) fn closest<S: Simd>(
+    set: S,
+    target: Target<'_>,
+    ray: &Ray,
+    prepared: &PreparedRay,
+    stack: &mut [u64],
+    closest: &mut Closest,
+) {
+    let slabs = Slabs::<S::Eight>::new(set, ray, prepared.axes[2], target.bounds);
+    let shear = prepared.shear.splat::<S::Eight>(set);
+    let (mut current, mut top) = (Child::node(0), 0);
+    loop {
+        match current.below() {
+            Below::Node(index) => {
+                let node = &target.tree.nodes[index];
+                let (entry, met) = slabs.test::<S>(set, node, S::Eight::splat(set, closest.0.t));
+                if let Some(nearest) =
+                    push_sorted(set, target.tree, node, entry, met.bits(), stack, &mut top)
+                {
+                    current = nearest;
+                    continue;
+                }
+            }
+            Below::Leaf(index) => {
+                closest_in_leaf(set, &target.tree.leaves[index], prepared, &shear, closest)
+            }
+            Below::Quadric(index) => {
+                if let Some(t) = target.quadrics[index].intersect(ray, closest.0.t) {
+                    closest.offer(target.first_quadric + index as u32, [t, 0.0, 0.0]);
+                }
+            }
+        }
+        loop {
+            if top == 0 {
+                return;
+            }
+            top -= 1;
+            if entry_of(stack[top]) <= closest.0.t {
+                current = child_of(stack[top]);
+                break;
+            }
+        }
+    }
+}
+
+/// Puts the children of the set bits on the stack, the nearest on top, and takes that one off again.
+#[inline(always)]
+fn push_sorted<S: Simd>(
+    set: S,
+    tree: &WideTree,
+    node: &Node,
+    entry: S::Eight,
+    mut met: u32,
+    stack: &mut [u64],
+    top: &mut usize,
+) -> Option<Child> {
+    if met == 0 {
+        return None;
+    }
+    let first = met.trailing_zeros() as usize;
+    met &= met - 1;
+    if met == 0 {
+        return Some(node.children[first]);
+    }
+    let mut entries = [0.0; WIDTH];
+    entry.store(&mut entries);
+    let mut nearest = pack(entries[first], node.children[first]);
+    prefetch(set, tree, node.children[first]);
+    let bottom = *top;
+    while met != 0 {
+        let lane = met.trailing_zeros() as usize;
+        met &= met - 1;
+        prefetch(set, tree, node.children[lane]);
+        let key = pack(entries[lane], node.children[lane]);
+        let (near, far) = (key.min(nearest), key.max(nearest));
+        nearest = near;
+        insert(stack, bottom, *top, far);
+        *top += 1;
+    }
+    Some(child_of(nearest))
+}
+
+/// Inserts into the run `stack[bottom..top]`, which falls from bottom to top.
+#[inline(always)]
+fn insert(stack: &mut [u64], bottom: usize, top: usize, key: u64) {
+    let mut place = top;
+    while place > bottom && stack[place - 1] < key {
+        stack[place] = stack[place - 1];
+        place -= 1;
+    }
+    stack[place] = key;
+}
+
+#[inline(always)]
+fn prefetch<S: Simd>(set: S, tree: &WideTree, child: Child) {
+    let (start, lines) = match child.below() {
+        Below::Node(index) => (std::ptr::from_ref(&tree.nodes[index]).cast::<[u8; 64]>(), 4),
+        Below::Leaf(index) => (
+            std::ptr::from_ref(&tree.leaves[index]).cast::<[u8; 64]>(),
+            5,
+        ),
+        Below::Quadric(_) => return,
+    };
+    for line in 0..lines {
+        set.prefetch(start.wrapping_add(line));
+    }
+}
+
+/// The crossings of one ray with the triangles of a leaf.
+struct LeafTest<F: Floats> {
+    /// Lanes in which `f32` decides, and `0 < t ≤ t_max` too.
+    accepted: u32,
+    /// Lanes that need the exact test.
+    uncertain: u32,
+    intersection: Intersection<F>,
+}
+
+#[inline(always)]
+fn test_leaf<S: Simd>(
+    set: S,
+    leaf: &Leaf,
+    prepared: &PreparedRay,
+    shear: &Shear<S::Eight>,
+    t_max: f32,
+) -> Option<LeafTest<S::Eight>> {
+    let corner = |vertex: usize| {
+        shear.apply(
+            prepared
+                .axes
+                .map(|axis| S::Eight::load(set, &leaf.corners[vertex][axis])),
+        )
+    };
+    let (a, b, c) = (corner(0), corner(1), corner(2));
+    let edges = Edges::new(a, b, c);
+    let inside = edges.inside(set).bits();
+    if inside == 0 {
+        return None;
+    }
+    let certain = edges.certainly_inside(set);
+    let intersection = edges.intersection([a[2], b[2], c[2]]);
+    let ahead = S::Eight::splat(set, 0.0).less(intersection.t);
+    let before_end = intersection.t.less_equal(S::Eight::splat(set, t_max));
+    let accepted = (certain & ahead & before_end).bits();
+    Some(LeafTest {
+        accepted,
+        uncertain: inside & !certain.bits(),
+        intersection,
+    })
+}
+
+#[inline(always)]
+fn closest_in_leaf<S: Simd>(
+    set: S,
+    leaf: &Leaf,
+    prepared: &PreparedRay,
+    shear: &Shear<S::Eight>,
+    closest: &mut Closest,
+) {
+    let Some(test) = test_leaf(set, leaf, prepared, shear, closest.0.t) else {
+        return;
+    };
+    if test.accepted != 0 {
+        offer_lanes(leaf, test.accepted, &test.intersection, closest);
+    }
+    let mut uncertain = test.uncertain;
+    while uncertain != 0 {
+        let lane = uncertain.trailing_zeros() as usize;
+        uncertain &= uncertain - 1;
+        if let Some(crossing) = exact_in_lane(leaf, lane, prepared) {
+            closest.offer(leaf.triangles[lane], crossing);
+        }
+    }
+}
+
+#[inline(always)]
+fn offer_lanes<F: Floats>(
+    leaf: &Leaf,
+    mut lanes: u32,
+    intersection: &Intersection<F>,
+    closest: &mut Closest,
+) {
+    let mut columns = [[0.0; WIDTH]; 4];
+    let Intersection {
+        t,
+        v,
+        w,
+        determinant,
+    } = *intersection;
+    for (column, vector) in columns.iter_mut().zip([t, v, w, determinant]) {
+        vector.store(column);
+    }
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize;
+        lanes &= lanes - 1;
+        let [t, v, w, determinant] = columns.map(|column| column[lane]);
+        if closest.accepts(t, leaf.triangles[lane]) {
+            let [u, v] = Intersection {
+                t,
+                v,
+                w,
+                determinant,
+            }
+            .weights();
+            closest.0 = Hit {
+                t,
+                u,
+                v,
+                primitive: leaf.triangles[lane],
+            };
+        }
+    }
+}
+
+#[cold]
+fn exact_in_lane(leaf: &Leaf, lane: usize, prepared: &PreparedRay) -> Option<[f32; 3]> {
+    let [a, b, c] = leaf
+        .triangle(lane, prepared.axes)
+        .map(|corner| prepared.shear.apply(corner));
+    exact_intersection(a, b, c)
+}
+
+/// Whether anything in the tree has `0 < t < end`.
+#[inline(always)]
+pub(crate) fn occluded<S: Simd>(
+    set: S,
+    target: Target<'_>,
+    ray: &Ray,
+    prepared: &PreparedRay,
+    stack: &mut [u64],
+    last: f32,
+) -> bool {
+    let slabs = Slabs::<S::Eight>::new(set, ray, prepared.axes[2], target.bounds);
+    let shear = prepared.shear.splat::<S::Eight>(set);
+    let end = S::Eight::splat(set, last);
+    let (mut current, mut top) = (Child::node(0), 0);
+    loop {
+        match current.below() {
+            Below::Node(index) => {
+                let node = &target.tree.nodes[index];
+                let mut met = slabs.test::<S>(set, node, end).1.bits();
+                if met != 0 {
+                    current = node.children[met.trailing_zeros() as usize];
+                    met &= met - 1;
+                    while met != 0 {
+                        let lane = 31 - met.leading_zeros() as usize;
+                        met ^= 1 << lane;
+                        stack[top] = u64::from(node.children[lane].0);
+                        prefetch(set, target.tree, node.children[lane]);
+                        top += 1;
+                    }
+                    continue;
+                }
+            }
+            Below::Leaf(index) => {
+                if occluded_in_leaf(set, &target.tree.leaves[index], prepared, &shear, last) {
+                    return true;
+                }
+            }
+            Below::Quadric(index) => {
+                if target.quadrics[index].intersect(ray, last).is_some() {
+                    return true;
+                }
+            }
+        }
+        if top == 0 {
+            return false;
+        }
+        top -= 1;
+        current = child_of(stack[top]);
+    }
+}
+
+#[inline(always)]
+fn occluded_in_leaf<S: Simd>(
+    set: S,
+    leaf: &Leaf,
+    prepared: &PreparedRay,
+    shear: &Shear<S::Eight>,
+    last: f32,
+) -> bool {
+    let Some(test) = test_leaf(set, leaf, prepared, shear, last) else {
+        return false;
+    };
+    test.accepted != 0
+        || (test.uncertain != 0 && exactly_occluded(leaf, test.uncertain, prepared, last))
+}
+
+#[cold]
+fn exactly_occluded(leaf: &Leaf, lanes: u32, prepared: &PreparedRay, last: f32) -> bool {
+    (0..WIDTH)
+        .filter(|&lane| lanes >> lane & 1 == 1)
+        .any(|lane| exact_in_lane(leaf, lane, prepared).is_some_and(|[t, ..]| t > 0.0 && t <= last))
+}
