@@ -68,7 +68,7 @@ impl Estimate {
         let half_width = factor * std_error;
         let interval = half_width
             .is_finite()
-            .then(|| [value - half_width, value + half_width]);
+            .then_some([value - half_width, value + half_width]);
         Self {
             value,
             std_error,

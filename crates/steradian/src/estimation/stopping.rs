@@ -78,7 +78,7 @@ pub fn estimate<I: Integrand>(
     match (plan.stop.samples, plan.stop.time) {
         (Some(samples), _) => session.fixed(samples),
         (None, Some(time)) if !plan.stop.has_tolerance() => session.timed(time),
-        _ => session.to_tolerance(),
+        _ => session.until_tolerance(),
     }
 }
 
@@ -182,7 +182,7 @@ impl<'a, I: Integrand> Session<'a, I> {
         }
     }
 
-    fn to_tolerance(&mut self) -> Result<Vec<Replicates>, EstimationError> {
+    fn until_tolerance(&mut self) -> Result<Vec<Replicates>, EstimationError> {
         let mut pilot = Cells::new(self.integrand, self.plan);
         if self.pilot(&mut pilot)?.is_break() {
             return Ok(self.harvest(&pilot, |_| false));

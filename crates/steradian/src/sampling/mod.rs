@@ -3,6 +3,9 @@
 //! Everything here is a pure function of its arguments with the same bits on every platform.
 
 pub mod block;
+pub mod discrete;
 pub mod hash;
 pub mod owen;
+pub mod sincos;
 pub mod sobol;
+pub mod warp;
