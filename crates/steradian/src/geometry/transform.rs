@@ -30,6 +30,14 @@ impl Transform {
     /// Leaves everything where it is.
     pub const IDENTITY: Self = Self::scale(1.0);
 
+    /// Takes the three axes to these vectors: the columns of M.
+    pub const fn from_axes(images: [Vector; 3]) -> Self {
+        Self {
+            columns: images,
+            translation: Vector::ZERO,
+        }
+    }
+
     /// Moves by `step`.
     pub const fn translate(step: Vector) -> Self {
         Self {
@@ -218,6 +226,13 @@ mod tests {
         ] {
             assert!((turn.vector(from.into()) - to.to_vector()).length() < 4.0 * f64::EPSILON);
         }
+    }
+
+    #[test]
+    fn the_images_of_the_axes_define_a_transform() {
+        let images = [Direction::Y, Direction::Z, Direction::X].map(Vector::from);
+        let cycle = Transform::from_axes(images);
+        assert_eq!(cycle.point(Point::new(1.0, 2.0, 3.0)), Point::new(3.0, 1.0, 2.0));
     }
 
     #[test]
