@@ -1,0 +1,126 @@
+//! Where a reader gets the bytes of files from.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Access to the files that a scene names.
+pub trait Files {
+    /// All bytes of the file at `path`.
+    ///
+    /// # Errors
+    /// If there is no such file, or it is too large or unreadable.
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>>;
+}
+
+/// Files on disk: regular files up to a size limit.
+#[derive(Clone, Debug)]
+pub struct DiskFiles {
+    /// Larger files are refused, in bytes.
+    pub size_limit: u64,
+}
+
+impl Default for DiskFiles {
+    /// With a limit of 2 GiB.
+    fn default() -> Self {
+        Self {
+            size_limit: 2 << 30,
+        }
+    }
+}
+
+impl Files for DiskFiles {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        let metadata = std::fs::metadata(path)?;
+        if !metadata.is_file() {
+            return Err(io::Error::other("not a regular file"));
+        }
+        let mut bytes = Vec::new();
+        File::open(path)?
+            .take(self.size_limit.saturating_add(1))
+            .read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > self.size_limit {
+            return Err(io::Error::other(format!(
+                "larger than the limit of {} bytes",
+                self.size_limit
+            )));
+        }
+        Ok(bytes)
+    }
+}
+
+/// Files in memory, for tests and embedded scenes.
+#[derive(Clone, Debug, Default)]
+pub struct MemoryFiles {
+    files: BTreeMap<PathBuf, Vec<u8>>,
+}
+
+impl MemoryFiles {
+    /// The same with one more file.
+    pub fn with(mut self, path: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) -> Self {
+        self.files.insert(path.into(), bytes.into());
+        self
+    }
+}
+
+impl Files for MemoryFiles {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        self.files
+            .get(path)
+            .cloned()
+            .ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_disk_gives_files_up_to_the_limit() {
+        let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+        let bytes = DiskFiles::default().read(&manifest).unwrap();
+        assert!(bytes.starts_with(b"[package]"));
+        let exact = DiskFiles {
+            size_limit: bytes.len() as u64,
+        };
+        assert_eq!(exact.read(&manifest).unwrap(), bytes);
+        let short = DiskFiles {
+            size_limit: bytes.len() as u64 - 1,
+        };
+        assert!(
+            short
+                .read(&manifest)
+                .unwrap_err()
+                .to_string()
+                .contains("limit")
+        );
+    }
+
+    #[test]
+    fn a_directory_is_not_a_file() {
+        let directory = Path::new(env!("CARGO_MANIFEST_DIR"));
+        assert!(
+            DiskFiles::default()
+                .read(directory)
+                .unwrap_err()
+                .to_string()
+                .contains("regular file")
+        );
+        let missing = DiskFiles::default()
+            .read(&directory.join("none"))
+            .unwrap_err();
+        assert_eq!(missing.kind(), io::ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn memory_gives_what_was_put_in() {
+        let files = MemoryFiles::default().with("a.obj", "v 0 0 0");
+        assert_eq!(files.read(Path::new("a.obj")).unwrap(), b"v 0 0 0");
+        assert_eq!(
+            files.read(Path::new("b.obj")).unwrap_err().kind(),
+            io::ErrorKind::NotFound
+        );
+    }
+}
