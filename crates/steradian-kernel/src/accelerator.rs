@@ -231,9 +231,11 @@ impl Kernel for ClosestHits<'_> {
             let mut stack = traversal::stack_for(&accelerator.tree);
             for row in 0..rays.len() {
                 let ray = rays.ray(row);
-                let hit = PreparedRay::new(&ray)
-                    .map(|prepared| accelerator.closest_in_tree(set, &ray, &prepared, &mut stack));
-                hits.set(row, hit.unwrap_or(Hit::NONE));
+                let mut hit = Hit::NONE;
+                if let Some(prepared) = PreparedRay::new(&ray) {
+                    hit = accelerator.closest_in_tree(set, &ray, &prepared, &mut stack);
+                }
+                hits.set(row, hit);
             }
             return;
         };
@@ -269,9 +271,10 @@ impl Kernel for Occlusions<'_> {
             let mut stack = traversal::stack_for(&accelerator.tree);
             for (row, occluded) in occluded.iter_mut().enumerate() {
                 let ray = rays.ray(row);
-                *occluded = PreparedRay::new(&ray).is_some_and(|prepared| {
-                    accelerator.occluded_in_tree(set, &ray, &prepared, &mut stack)
-                });
+                *occluded = false;
+                if let Some(prepared) = PreparedRay::new(&ray) {
+                    *occluded = accelerator.occluded_in_tree(set, &ray, &prepared, &mut stack);
+                }
             }
             return;
         };

@@ -10,8 +10,8 @@
 use crate::batch::Ray;
 use crate::geometry::COORDINATE_LIMIT;
 use crate::node::{Bounds, Node};
-use crate::simd::{Floats, Scalar, Simd};
-use crate::triangle::Shear;
+use crate::simd::{Floats, Scalar};
+use crate::triangle::{Shear, splat};
 
 const PADDING: f32 = 1.0 / (1 << 19) as f32;
 const ORIGIN_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
@@ -44,8 +44,8 @@ impl PreparedRay {
         let axes = axes_of(main);
         let shear = Shear::new(
             Scalar,
-            axes.map(|k| ray.origin[k]),
-            axes.map(|k| ray.direction[k]),
+            permute(ray.origin, axes),
+            permute(ray.direction, axes),
         );
         Some(Self {
             axes,
@@ -53,6 +53,12 @@ impl PreparedRay {
             t_max: ray.t_max.min(f32::MAX),
         })
     }
+}
+
+/// Components in the order of the shear.
+#[inline(always)]
+pub(crate) fn permute(vector: [f32; 3], [x, y, z]: [usize; 3]) -> [f32; 3] {
+    [vector[x], vector[y], vector[z]]
 }
 
 /// The axes in the order of the shear.
@@ -99,56 +105,72 @@ impl<F: Floats> Slabs<F> {
     /// `bounds` holds everything that is to be tested.
     #[inline(always)]
     pub(crate) fn new(set: F::Set, ray: &Ray, main: usize, bounds: &Bounds) -> Self {
-        let flattest = ray.direction[main].abs() * FLATTEST;
-        let reach = [0, 1, 2].map(|k| {
-            (bounds.lower[k] - ray.origin[k])
-                .abs()
-                .max((bounds.upper[k] - ray.origin[k]).abs())
-        });
-        let padding = PADDING * reach[0].max(reach[1]).max(reach[2]);
-        let shift =
-            |k: usize| (padding + ORIGIN_ROUNDING * ray.origin[k].abs()).copysign(ray.direction[k]);
-        let steep = |k: usize| {
-            F::splat(set, 1.0)
-                / F::splat(
-                    set,
-                    ray.direction[k]
-                        .abs()
-                        .max(flattest)
-                        .copysign(ray.direction[k]),
-                )
-        };
+        let slabs = SlabNumbers::new(ray, main, bounds);
         Self {
-            near_origin: [0, 1, 2].map(|k| F::splat(set, ray.origin[k] + shift(k))),
-            far_origin: [0, 1, 2].map(|k| F::splat(set, ray.origin[k] - shift(k))),
-            reciprocal: [0, 1, 2].map(steep),
-            near_side: ray
-                .direction
-                .map(|component| usize::from(component.is_sign_negative())),
+            near_origin: splat(set, slabs.near_origin),
+            far_origin: splat(set, slabs.far_origin),
+            reciprocal: splat(set, slabs.reciprocal),
+            near_side: slabs.near_side,
         }
     }
 
     /// Where the ray enters each child's box, and the children whose box it meets before or at `t_max`.
     #[inline(always)]
-    pub(crate) fn test<S: Simd<Eight = F>>(
-        &self,
-        set: F::Set,
-        node: &Node,
-        t_max: F,
-    ) -> (F, F::Mask) {
-        let near = |k: usize| {
-            (F::load(set, &node.planes[k][self.near_side[k]]) - self.near_origin[k])
-                * self.reciprocal[k]
-        };
-        let far = |k: usize| {
-            (F::load(set, &node.planes[k][1 - self.near_side[k]]) - self.far_origin[k])
-                * self.reciprocal[k]
-        };
-        let entry = near(0)
-            .maximum(near(1))
-            .maximum(near(2).maximum(F::splat(set, 0.0)));
-        let exit = far(0).minimum(far(1)).minimum(far(2).minimum(t_max));
+    pub(crate) fn test(&self, set: F::Set, node: &Node, t_max: F) -> (F, F::Mask) {
+        let near = self.near(set, node, 0).maximum(self.near(set, node, 1));
+        let entry = near.maximum(self.near(set, node, 2).maximum(F::splat(set, 0.0)));
+        let far = self.far(set, node, 0).minimum(self.far(set, node, 1));
+        let exit = far.minimum(self.far(set, node, 2).minimum(t_max));
         (entry, entry.less_equal(exit))
+    }
+
+    #[inline(always)]
+    fn near(&self, set: F::Set, node: &Node, axis: usize) -> F {
+        let planes = F::load(set, &node.planes[axis][self.near_side[axis] & 1]);
+        (planes - self.near_origin[axis]) * self.reciprocal[axis]
+    }
+
+    #[inline(always)]
+    fn far(&self, set: F::Set, node: &Node, axis: usize) -> F {
+        let planes = F::load(set, &node.planes[axis][self.near_side[axis] & 1 ^ 1]);
+        (planes - self.far_origin[axis]) * self.reciprocal[axis]
+    }
+}
+
+/// [`Slabs`] before they are copied to all lanes.
+struct SlabNumbers {
+    near_origin: [f32; 3],
+    far_origin: [f32; 3],
+    reciprocal: [f32; 3],
+    near_side: [usize; 3],
+}
+
+impl SlabNumbers {
+    #[inline(always)]
+    fn new(ray: &Ray, main: usize, bounds: &Bounds) -> Self {
+        let flattest = ray.direction[main].abs() * FLATTEST;
+        let mut reach = 0.0_f32;
+        for k in 0..3 {
+            let below = (bounds.lower[k] - ray.origin[k]).abs();
+            reach = reach
+                .max(below)
+                .max((bounds.upper[k] - ray.origin[k]).abs());
+        }
+        let mut slabs = Self {
+            near_origin: [0.0; 3],
+            far_origin: [0.0; 3],
+            reciprocal: [0.0; 3],
+            near_side: [0; 3],
+        };
+        for k in 0..3 {
+            let (origin, direction) = (ray.origin[k], ray.direction[k]);
+            let shift = (PADDING * reach + ORIGIN_ROUNDING * origin.abs()).copysign(direction);
+            slabs.near_origin[k] = origin + shift;
+            slabs.far_origin[k] = origin - shift;
+            slabs.reciprocal[k] = 1.0 / direction.abs().max(flattest).copysign(direction);
+            slabs.near_side[k] = usize::from(direction.is_sign_negative());
+        }
+        slabs
     }
 }
 

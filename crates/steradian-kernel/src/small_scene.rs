@@ -4,9 +4,9 @@
 //! as many rays as it has lanes; the operations on each are those of the tree's leaves, bit for bit.
 
 use crate::batch::{Hit, HitBatch, RayBatch};
-use crate::prepared_ray::{axes_of, is_valid, main_axis};
+use crate::prepared_ray::{axes_of, is_valid, main_axis, permute};
 use crate::simd::{Floats, Mask, Simd};
-use crate::triangle::{Edges, Shear, exact_intersection};
+use crate::triangle::{Edges, Shear, exact_intersection, splat};
 
 /// Up to this many triangles, trying all is faster than a tree.
 pub(crate) const MOST_TRIANGLES: usize = 64;
@@ -107,9 +107,7 @@ impl SmallScene {
         sheared: &mut [[F; 3]],
     ) {
         for (vertex, sheared) in self.vertices.iter().zip(sheared) {
-            *sheared = group
-                .shear
-                .apply(axes.map(|axis| F::splat(set, vertex[axis])));
+            *sheared = group.shear.apply(splat(set, permute(*vertex, axes)));
         }
     }
 
@@ -129,7 +127,7 @@ impl SmallScene {
             determinant: F::splat(set, 1.0),
         };
         for (index, triangle) in self.triangles.iter().enumerate() {
-            let [a, b, c] = triangle.map(|vertex| sheared[usize::from(vertex)]);
+            let [a, b, c] = corners(triangle, sheared);
             let edges = Edges::new(a, b, c);
             let inside = edges.inside(set);
             if inside.bits() == 0 {
@@ -162,7 +160,7 @@ impl SmallScene {
         let zero = F::splat(set, 0.0);
         let mut met = 0;
         for triangle in &self.triangles {
-            let [a, b, c] = triangle.map(|vertex| sheared[usize::from(vertex)]);
+            let [a, b, c] = corners(triangle, sheared);
             let edges = Edges::new(a, b, c);
             let inside = edges.inside(set);
             if inside.bits() & !met == 0 {
@@ -244,13 +242,27 @@ impl<F: Floats> Group<F> {
             }
             past_end[lane] = lanes[6][lane].min(f32::MAX).next_up();
         }
-        let vector = |column: usize| F::load(set, &lanes[column]);
+        let [x, y, z, dx, dy, dz, end] = &lanes;
         Self {
-            shear: Shear::new(set, [0, 1, 2].map(vector), [3, 4, 5].map(vector)),
-            end: vector(6),
+            shear: Shear::new(
+                set,
+                [F::load(set, x), F::load(set, y), F::load(set, z)],
+                [F::load(set, dx), F::load(set, dy), F::load(set, dz)],
+            ),
+            end: F::load(set, end),
             past_end: F::load(set, &past_end),
         }
     }
+}
+
+/// The sheared corners of a triangle.
+#[inline(always)]
+fn corners<F: Floats>(&[a, b, c]: &[u16; 3], sheared: &[[F; 3]]) -> [[F; 3]; 3] {
+    [
+        sheared[usize::from(a)],
+        sheared[usize::from(b)],
+        sheared[usize::from(c)],
+    ]
 }
 
 /// The closest hits of a group.
@@ -280,13 +292,13 @@ impl<F: Floats> Best<F> {
                 determinant[lane] = 1.0;
             }
         }
-        let [t, index, v, w, determinant] = columns.map(|column| F::load(set, &column));
+        let [t, place, v, w, determinant] = &columns;
         *self = Self {
-            t,
-            index,
-            v,
-            w,
-            determinant,
+            t: F::load(set, t),
+            index: F::load(set, place),
+            v: F::load(set, v),
+            w: F::load(set, w),
+            determinant: F::load(set, determinant),
         };
     }
 

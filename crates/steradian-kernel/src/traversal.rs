@@ -94,7 +94,7 @@ pub(crate) fn closest<S: Simd>(
         match current.below() {
             Below::Node(index) => {
                 let node = &target.tree.nodes[index];
-                let (entry, met) = slabs.test::<S>(set, node, S::Eight::splat(set, closest.0.t));
+                let (entry, met) = slabs.test(set, node, S::Eight::splat(set, closest.0.t));
                 if let Some(nearest) =
                     push_sorted(set, target.tree, node, entry, met.bits(), stack, &mut top)
                 {
@@ -204,14 +204,9 @@ fn test_leaf<S: Simd>(
     shear: &Shear<S::Eight>,
     t_max: f32,
 ) -> Option<LeafTest<S::Eight>> {
-    let corner = |vertex: usize| {
-        shear.apply(
-            prepared
-                .axes
-                .map(|axis| S::Eight::load(set, &leaf.corners[vertex][axis])),
-        )
-    };
-    let (a, b, c) = (corner(0), corner(1), corner(2));
+    let a = shear.apply(load_corner(set, &leaf.corners[0], prepared.axes));
+    let b = shear.apply(load_corner(set, &leaf.corners[1], prepared.axes));
+    let c = shear.apply(load_corner(set, &leaf.corners[2], prepared.axes));
     let edges = Edges::new(a, b, c);
     let inside = edges.inside(set).bits();
     if inside == 0 {
@@ -227,6 +222,20 @@ fn test_leaf<S: Simd>(
         uncertain: inside & !certain.bits(),
         intersection,
     })
+}
+
+/// One vertex of all triangles of a leaf.
+#[inline(always)]
+fn load_corner<F: Floats>(
+    set: F::Set,
+    corner: &[[f32; WIDTH]; 3],
+    [x, y, z]: [usize; 3],
+) -> [F; 3] {
+    [
+        F::load(set, &corner[x]),
+        F::load(set, &corner[y]),
+        F::load(set, &corner[z]),
+    ]
 }
 
 #[inline(always)]
@@ -260,30 +269,18 @@ fn offer_lanes<F: Floats>(
     intersection: &Intersection<F>,
     closest: &mut Closest,
 ) {
-    let mut columns = [[0.0; WIDTH]; 4];
-    let Intersection {
-        t,
-        v,
-        w,
-        determinant,
-    } = *intersection;
-    for (column, vector) in columns.iter_mut().zip([t, v, w, determinant]) {
-        vector.store(column);
-    }
+    let [mut t, mut v, mut w, mut determinant] = [[0.0; WIDTH]; 4];
+    intersection.t.store(&mut t);
+    intersection.v.store(&mut v);
+    intersection.w.store(&mut w);
+    intersection.determinant.store(&mut determinant);
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
-        let [t, v, w, determinant] = columns.map(|column| column[lane]);
-        if closest.accepts(t, leaf.triangles[lane]) {
-            let [u, v] = Intersection {
-                t,
-                v,
-                w,
-                determinant,
-            }
-            .weights();
+        if closest.accepts(t[lane], leaf.triangles[lane]) {
+            let [u, v] = [v[lane] / determinant[lane], w[lane] / determinant[lane]];
             closest.0 = Hit {
-                t,
+                t: t[lane],
                 u,
                 v,
                 primitive: leaf.triangles[lane],
@@ -318,7 +315,7 @@ pub(crate) fn occluded<S: Simd>(
         match current.below() {
             Below::Node(index) => {
                 let node = &target.tree.nodes[index];
-                let mut met = slabs.test::<S>(set, node, end).1.bits();
+                let mut met = slabs.test(set, node, end).1.bits();
                 if met != 0 {
                     current = node.children[met.trailing_zeros() as usize];
                     met &= met - 1;

@@ -62,10 +62,16 @@ impl Shear<f32> {
     #[inline(always)]
     pub(crate) fn splat<F: Floats>(&self, set: F::Set) -> Shear<F> {
         Shear {
-            origin: self.origin.map(|x| F::splat(set, x)),
-            slope: self.slope.map(|x| F::splat(set, x)),
+            origin: splat(set, self.origin),
+            slope: splat(set, self.slope),
         }
     }
+}
+
+/// The same point in every lane.
+#[inline(always)]
+pub(crate) fn splat<F: Floats>(set: F::Set, [x, y, z]: [f32; 3]) -> [F; 3] {
+    [F::splat(set, x), F::splat(set, y), F::splat(set, z)]
 }
 
 /// The three edge functions, which are the unnormalised weights of the vertices.
