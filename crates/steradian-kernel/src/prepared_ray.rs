@@ -21,7 +21,8 @@ const ORIGIN_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
 const FLATTEST: f32 = f32::from_bits((127 - 40) << 23);
 
 /// The range of the direction's largest component, 2⁻²⁸ … 2²⁸.
-const DIRECTION_RANGE: std::ops::RangeInclusive<f32> = 1.0 / COORDINATE_LIMIT..=COORDINATE_LIMIT;
+pub(crate) const DIRECTION_RANGE: std::ops::RangeInclusive<f32> =
+    1.0 / COORDINATE_LIMIT..=COORDINATE_LIMIT;
 
 /// A valid ray and its shear.
 #[derive(Copy, Clone)]

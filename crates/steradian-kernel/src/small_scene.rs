@@ -1,12 +1,14 @@
 //! Rays side by side against every triangle, for scenes so small that a tree does not pay.
 //!
-//! Vertices that triangles share are sheared once. Rays are taken in groups with the same main axis, so that a vector holds
-//! as many rays as it has lanes; the operations on each are those of the tree's leaves, bit for bit.
+//! A vector holds one number of as many rays as it has lanes. Vertices that triangles share are sheared once. Rays with
+//! different main axes go together: the coordinates are permuted lane by lane. The operations on each ray are those of the
+//! tree's leaves, so the hits are the same bits.
 
-use crate::batch::{Hit, HitBatch, RayBatch};
-use crate::prepared_ray::{axes_of, is_valid, main_axis, permute};
+use crate::batch::{Hit, HitBatch, MISS, RayBatch};
+use crate::geometry::COORDINATE_LIMIT;
+use crate::prepared_ray::DIRECTION_RANGE;
 use crate::simd::{Floats, Mask, Simd};
-use crate::triangle::{Edges, Shear, exact_intersection, splat};
+use crate::triangle::{Edges, Shear, exact_intersection};
 
 /// Up to this many triangles, trying all is faster than a tree.
 pub(crate) const MOST_TRIANGLES: usize = 64;
@@ -14,8 +16,8 @@ pub(crate) const MOST_TRIANGLES: usize = 64;
 /// Lanes of the widest vector.
 const MOST_LANES: usize = 16;
 
-/// Rays sorted into groups at once.
-const CHUNK: usize = 1024;
+/// A number for every ray of a group.
+type Column = [f32; MOST_LANES];
 
 /// Triangles by number, over vertices without duplicates.
 #[derive(Clone)]
@@ -23,7 +25,7 @@ pub(crate) struct SmallScene {
     vertices: Vec<[f32; 3]>,
     /// Indices of the corners.
     triangles: Vec<[u16; 3]>,
-    /// What the triangles are called outside, in ascending order.
+    /// What the triangles are called outside, in ascending order, after the name of a miss.
     numbers: Vec<u32>,
 }
 
@@ -36,8 +38,9 @@ impl SmallScene {
         let mut scene = Self {
             vertices: Vec::new(),
             triangles: Vec::new(),
-            numbers: numbers.to_vec(),
+            numbers: vec![MISS],
         };
+        scene.numbers.extend(numbers);
         for &number in numbers {
             let triangle = corners(number).map(|corner| scene.vertex(corner));
             scene.triangles.push(triangle);
@@ -58,20 +61,14 @@ impl SmallScene {
     #[inline(always)]
     pub(crate) fn closest<S: Simd>(&self, set: S, rays: &RayBatch, hits: &mut HitBatch) {
         let mut sheared = vec![[S::Wide::splat(set, 0.0); 3]; self.vertices.len()];
-        for start in (0..rays.len()).step_by(CHUNK) {
-            let sorted = Sorted::new(rays, start);
-            for main in 0..3 {
-                for rows in sorted.groups(main, S::Wide::LANES) {
-                    let group = Group::<S::Wide>::load(set, rays, axes_of(main), rows);
-                    self.shear(set, &group, axes_of(main), &mut sheared);
-                    self.closest_of_group(set, &group, &sheared)
-                        .write(&self.numbers, rows, hits);
-                }
-            }
-            sorted
-                .invalid()
-                .iter()
-                .for_each(|&row| hits.set(row as usize, Hit::NONE));
+        let mut start = 0;
+        while start < rays.len() {
+            let count = S::Wide::LANES.min(rays.len() - start);
+            let group = Group::<S::Wide>::load(set, rays, start, count);
+            self.shear(set, &group, &mut sheared);
+            let best = self.closest_of_group(set, &group, &sheared);
+            best.write(&self.numbers, hits, start, count);
+            start += count;
         }
     }
 
@@ -79,35 +76,21 @@ impl SmallScene {
     #[inline(always)]
     pub(crate) fn occluded<S: Simd>(&self, set: S, rays: &RayBatch, out: &mut [bool]) {
         let mut sheared = vec![[S::Wide::splat(set, 0.0); 3]; self.vertices.len()];
-        for start in (0..rays.len()).step_by(CHUNK) {
-            let sorted = Sorted::new(rays, start);
-            for main in 0..3 {
-                for rows in sorted.groups(main, S::Wide::LANES) {
-                    let group = Group::<S::Wide>::load(set, rays, axes_of(main), rows);
-                    self.shear(set, &group, axes_of(main), &mut sheared);
-                    let met = self.occluded_of_group(set, &group, &sheared);
-                    for (lane, &row) in rows.iter().enumerate() {
-                        out[row as usize] = met >> lane & 1 == 1;
-                    }
-                }
+        for (index, out) in out.chunks_mut(S::Wide::LANES).enumerate() {
+            let group = Group::<S::Wide>::load(set, rays, index * S::Wide::LANES, out.len());
+            self.shear(set, &group, &mut sheared);
+            let met = self.occluded_of_group(set, &group, &sheared);
+            for (lane, out) in out.iter_mut().enumerate() {
+                *out = met >> lane & 1 == 1;
             }
-            sorted
-                .invalid()
-                .iter()
-                .for_each(|&row| out[row as usize] = false);
         }
     }
 
     #[inline(always)]
-    fn shear<F: Floats>(
-        &self,
-        set: F::Set,
-        group: &Group<F>,
-        axes: [usize; 3],
-        sheared: &mut [[F; 3]],
-    ) {
-        for (vertex, sheared) in self.vertices.iter().zip(sheared) {
-            *sheared = group.shear.apply(splat(set, permute(*vertex, axes)));
+    fn shear<F: Floats>(&self, set: F::Set, group: &Group<F>, sheared: &mut [[F; 3]]) {
+        for (&[x, y, z], sheared) in self.vertices.iter().zip(sheared) {
+            let vertex = [F::splat(set, x), F::splat(set, y), F::splat(set, z)];
+            *sheared = group.shear.apply(group.axes.permute(vertex));
         }
     }
 
@@ -119,15 +102,11 @@ impl SmallScene {
         sheared: &[[F; 3]],
     ) -> Best<F> {
         let zero = F::splat(set, 0.0);
-        let mut best = Best {
-            t: group.past_end,
-            index: F::splat(set, -1.0),
-            v: zero,
-            w: zero,
-            determinant: F::splat(set, 1.0),
-        };
-        for (index, triangle) in self.triangles.iter().enumerate() {
+        let mut best = Best::none(set);
+        let mut index = 0.0;
+        for triangle in &self.triangles {
             let [a, b, c] = corners(triangle, sheared);
+            index += 1.0;
             let edges = Edges::new(a, b, c);
             let inside = edges.inside(set);
             if inside.bits() == 0 {
@@ -135,15 +114,16 @@ impl SmallScene {
             }
             let certain = edges.certainly_inside(set);
             let crossing = edges.intersection([a[2], b[2], c[2]]);
-            let nearer = certain & zero.less(crossing.t) & crossing.t.less(best.t);
+            let on_ray = zero.less(crossing.t) & crossing.t.less_equal(group.t_max);
+            let nearer = certain & on_ray & crossing.t.less(best.t);
             best.t = F::select(nearer, crossing.t, best.t);
-            best.index = F::select(nearer, F::splat(set, index as f32), best.index);
+            best.index = F::select(nearer, F::splat(set, index), best.index);
             best.v = F::select(nearer, crossing.v, best.v);
             best.w = F::select(nearer, crossing.w, best.w);
             best.determinant = F::select(nearer, crossing.determinant, best.determinant);
             let uncertain = inside.bits() & !certain.bits();
             if uncertain != 0 {
-                best.offer_exact(set, index, uncertain, [a, b, c]);
+                best.offer_exact(set, index, uncertain, &[a, b, c], group.t_max);
             }
         }
         best
@@ -168,90 +148,13 @@ impl SmallScene {
             }
             let certain = edges.certainly_inside(set);
             let t = edges.intersection([a[2], b[2], c[2]]).t;
-            met |= (certain & zero.less(t) & t.less(group.end)).bits();
+            met |= (certain & zero.less(t) & t.less(group.t_max)).bits();
             let uncertain = inside.bits() & !certain.bits() & !met;
             if uncertain != 0 {
-                met |= exact_lanes(uncertain, [a, b, c], group.end);
+                met |= exactly_occluded(uncertain, &[a, b, c], group.t_max);
             }
         }
         met
-    }
-}
-
-/// Rows of a chunk of the batch, by main axis; the fourth list holds the rays that are not valid.
-struct Sorted {
-    rows: [[u32; CHUNK]; 4],
-    counts: [usize; 4],
-}
-
-impl Sorted {
-    #[inline(always)]
-    fn new(rays: &RayBatch, start: usize) -> Self {
-        let mut sorted = Self {
-            rows: [[0; CHUNK]; 4],
-            counts: [0; 4],
-        };
-        for row in start..rays.len().min(start + CHUNK) {
-            let ray = rays.ray(row);
-            let main = main_axis(ray.direction);
-            let list = if is_valid(&ray, main) { main } else { 3 };
-            sorted.rows[list][sorted.counts[list]] = row as u32;
-            sorted.counts[list] += 1;
-        }
-        sorted
-    }
-
-    fn groups(&self, main: usize, lanes: usize) -> impl Iterator<Item = &[u32]> {
-        self.rows[main][..self.counts[main]].chunks(lanes)
-    }
-
-    fn invalid(&self) -> &[u32] {
-        &self.rows[3][..self.counts[3]]
-    }
-}
-
-/// As many rays as a vector has lanes, with one main axis.
-struct Group<F> {
-    shear: Shear<F>,
-    /// The last `t`.
-    end: F,
-    /// The number after the last `t`.
-    past_end: F,
-}
-
-impl<F: Floats> Group<F> {
-    #[inline(always)]
-    fn load(set: F::Set, rays: &RayBatch, axes: [usize; 3], rows: &[u32]) -> Self {
-        let columns = rays.columns();
-        let [x, y, z] = axes;
-        let permuted = [x, y, z, 3 + x, 3 + y, 3 + z, 6].map(|column| columns[column].as_slice());
-        // Lanes without a ray get one that ends where it starts.
-        let mut lanes = [
-            [0.0; MOST_LANES],
-            [0.0; MOST_LANES],
-            [0.0; MOST_LANES],
-            [0.0; MOST_LANES],
-            [0.0; MOST_LANES],
-            [1.0; MOST_LANES],
-            [0.0; MOST_LANES],
-        ];
-        let mut past_end = [0.0; MOST_LANES];
-        for (lane, &row) in rows.iter().enumerate() {
-            for (lanes, column) in lanes.iter_mut().zip(permuted) {
-                lanes[lane] = column[row as usize];
-            }
-            past_end[lane] = lanes[6][lane].min(f32::MAX).next_up();
-        }
-        let [x, y, z, dx, dy, dz, end] = &lanes;
-        Self {
-            shear: Shear::new(
-                set,
-                [F::load(set, x), F::load(set, y), F::load(set, z)],
-                [F::load(set, dx), F::load(set, dy), F::load(set, dz)],
-            ),
-            end: F::load(set, end),
-            past_end: F::load(set, &past_end),
-        }
     }
 }
 
@@ -265,10 +168,111 @@ fn corners<F: Floats>(&[a, b, c]: &[u16; 3], sheared: &[[F; 3]]) -> [[F; 3]; 3] 
     ]
 }
 
+/// As many rays as a vector has lanes.
+struct Group<F: Floats> {
+    axes: Axes<F::Mask>,
+    /// Not a number in the lanes of invalid rays, which no test accepts.
+    shear: Shear<F>,
+    t_max: F,
+}
+
+impl<F: Floats> Group<F> {
+    /// Rays `start .. start + count`; the other lanes hold invalid ones.
+    #[inline(always)]
+    fn load(set: F::Set, rays: &RayBatch, start: usize, count: usize) -> Self {
+        let origin = [
+            load(set, &rays.origin_x, start, count),
+            load(set, &rays.origin_y, start, count),
+            load(set, &rays.origin_z, start, count),
+        ];
+        let direction = [
+            load(set, &rays.direction_x, start, count),
+            load(set, &rays.direction_y, start, count),
+            load(set, &rays.direction_z, start, count),
+        ];
+        let t_max: F = load(set, &rays.t_max, start, count);
+        let lengths = [
+            absolute(set, direction[0]),
+            absolute(set, direction[1]),
+            absolute(set, direction[2]),
+        ];
+        let valid = are_valid(set, origin, lengths, t_max);
+        let axes = Axes::of(lengths);
+        let [x, y, z] = axes.permute(origin);
+        let x = F::select(valid, x, F::splat(set, f32::NAN));
+        let y = F::select(valid, y, F::splat(set, f32::NAN));
+        Self {
+            axes,
+            shear: Shear::new(set, [x, y, z], axes.permute(direction)),
+            t_max,
+        }
+    }
+}
+
+/// Part of a column, filled up with NaN.
+#[inline(always)]
+fn load<F: Floats>(set: F::Set, column: &[f32], start: usize, count: usize) -> F {
+    let values = &column[start..start + count];
+    if count == F::LANES {
+        return F::load(set, values);
+    }
+    let mut padded = [f32::NAN; MOST_LANES];
+    padded[..count].copy_from_slice(values);
+    F::load(set, &padded)
+}
+
+#[inline(always)]
+fn absolute<F: Floats>(set: F::Set, x: F) -> F {
+    x.maximum(F::splat(set, 0.0) - x)
+}
+
+/// [`Ray`](crate::Ray) says what is valid; all comparisons fail on NaN.
+#[inline(always)]
+fn are_valid<F: Floats>(set: F::Set, [x, y, z]: [F; 3], lengths: [F; 3], t_max: F) -> F::Mask {
+    let limit = F::splat(set, COORDINATE_LIMIT);
+    let near = absolute(set, x).less_equal(limit)
+        & absolute(set, y).less_equal(limit)
+        & absolute(set, z).less_equal(limit);
+    let longest = F::splat(set, *DIRECTION_RANGE.end());
+    let [a, b, c] = lengths;
+    let not_long = a.less_equal(longest) & b.less_equal(longest) & c.less_equal(longest);
+    let not_short = F::splat(set, *DIRECTION_RANGE.start()).less_equal(a.maximum(b).maximum(c));
+    near & not_long & not_short & t_max.less_equal(F::splat(set, f32::INFINITY))
+}
+
+/// Which axis is the main one, lane by lane.
+#[derive(Copy, Clone)]
+struct Axes<M> {
+    is_x: M,
+    /// Where it is not x.
+    is_y: M,
+}
+
+impl<M: Mask> Axes<M> {
+    /// Of directions with these absolute components.
+    #[inline(always)]
+    fn of<F: Floats<Mask = M>>([x, y, z]: [F; 3]) -> Self {
+        Self {
+            is_x: y.less_equal(x) & z.less_equal(x),
+            is_y: z.less_equal(y),
+        }
+    }
+
+    /// Components in the order of the shear, the main one last.
+    #[inline(always)]
+    fn permute<F: Floats<Mask = M>>(&self, [x, y, z]: [F; 3]) -> [F; 3] {
+        [
+            F::select(self.is_x, y, F::select(self.is_y, z, x)),
+            F::select(self.is_x, z, F::select(self.is_y, x, y)),
+            F::select(self.is_x, x, F::select(self.is_y, y, z)),
+        ]
+    }
+}
+
 /// The closest hits of a group.
 struct Best<F> {
     t: F,
-    /// Place in the list of triangles, −1 for a miss; a small integer, exact as a float.
+    /// Place in [`SmallScene::numbers`], a small integer and so exact; 0 for a miss.
     index: F,
     v: F,
     w: F,
@@ -276,72 +280,73 @@ struct Best<F> {
 }
 
 impl<F: Floats> Best<F> {
+    #[inline(always)]
+    fn none(set: F::Set) -> Self {
+        let (zero, one) = (F::splat(set, 0.0), F::splat(set, 1.0));
+        Self {
+            t: F::splat(set, Hit::NONE.t),
+            index: zero,
+            v: zero,
+            w: zero,
+            determinant: one,
+        }
+    }
+
     #[cold]
-    fn offer_exact(&mut self, set: F::Set, index: usize, lanes: u32, corners: [[F; 3]; 3]) {
-        let mut columns = [[0.0; MOST_LANES]; 5];
-        let [t, place, v, w, determinant] = &mut columns;
-        self.t.store(t);
-        self.index.store(place);
-        self.v.store(v);
-        self.w.store(w);
-        self.determinant.store(determinant);
+    fn offer_exact(
+        &mut self,
+        set: F::Set,
+        index: f32,
+        lanes: u32,
+        corners: &[[F; 3]; 3],
+        t_max: F,
+    ) {
+        let (mut t, mut place) = (column(self.t), column(self.index));
+        let (mut v, mut w, mut determinant) =
+            (column(self.v), column(self.w), column(self.determinant));
+        let t_max = column(t_max);
         for (lane, crossing) in exact_crossings(lanes, corners) {
-            if crossing[0] > 0.0 && crossing[0] < t[lane] {
+            if crossing[0] > 0.0 && crossing[0] <= t_max[lane] && crossing[0] < t[lane] {
                 [t[lane], v[lane], w[lane]] = crossing;
-                place[lane] = index as f32;
-                determinant[lane] = 1.0;
+                (place[lane], determinant[lane]) = (index, 1.0);
             }
         }
-        let [t, place, v, w, determinant] = &columns;
         *self = Self {
-            t: F::load(set, t),
-            index: F::load(set, place),
-            v: F::load(set, v),
-            w: F::load(set, w),
-            determinant: F::load(set, determinant),
+            t: F::load(set, &t),
+            index: F::load(set, &place),
+            v: F::load(set, &v),
+            w: F::load(set, &w),
+            determinant: F::load(set, &determinant),
         };
     }
 
     #[inline(always)]
-    fn write(self, numbers: &[u32], rows: &[u32], hits: &mut HitBatch) {
-        let (mut t, mut index, mut u, mut v) = (
-            [0.0; MOST_LANES],
-            [0.0; MOST_LANES],
-            [0.0; MOST_LANES],
-            [0.0; MOST_LANES],
-        );
-        self.t.store(&mut t);
-        self.index.store(&mut index);
-        (self.v / self.determinant).store(&mut u);
-        (self.w / self.determinant).store(&mut v);
-        for (lane, &row) in rows.iter().enumerate() {
-            let hit = if index[lane] < 0.0 {
-                Hit::NONE
-            } else {
-                Hit {
-                    t: t[lane],
-                    u: u[lane],
-                    v: v[lane],
-                    primitive: numbers[index[lane] as usize],
-                }
-            };
-            hits.set(row as usize, hit);
+    fn write(self, numbers: &[u32], hits: &mut HitBatch, start: usize, count: usize) {
+        let end = start + count;
+        hits.t[start..end].copy_from_slice(&column(self.t)[..count]);
+        hits.u[start..end].copy_from_slice(&column(self.v / self.determinant)[..count]);
+        hits.v[start..end].copy_from_slice(&column(self.w / self.determinant)[..count]);
+        let places = column(self.index);
+        for (primitive, place) in hits.primitive[start..end].iter_mut().zip(places) {
+            *primitive = numbers[place as usize];
         }
     }
+}
+
+/// The lanes of a vector.
+#[inline(always)]
+fn column<F: Floats>(vector: F) -> Column {
+    let mut lanes = [0.0; MOST_LANES];
+    vector.store(&mut lanes);
+    lanes
 }
 
 /// The exact test in the lanes of the set bits, where it finds a crossing.
 fn exact_crossings<F: Floats>(
     lanes: u32,
-    corners: [[F; 3]; 3],
+    corners: &[[F; 3]; 3],
 ) -> impl Iterator<Item = (usize, [f32; 3])> {
-    let corners = corners.map(|corner| {
-        corner.map(|vector| {
-            let mut column = [0.0; MOST_LANES];
-            vector.store(&mut column);
-            column
-        })
-    });
+    let corners = corners.map(|corner| corner.map(column));
     (0..F::LANES)
         .filter(move |lane| lanes >> lane & 1 == 1)
         .filter_map(move |lane| {
@@ -351,9 +356,8 @@ fn exact_crossings<F: Floats>(
 }
 
 #[cold]
-fn exact_lanes<F: Floats>(lanes: u32, corners: [[F; 3]; 3], end: F) -> u32 {
-    let mut ends = [0.0; MOST_LANES];
-    end.store(&mut ends);
+fn exactly_occluded<F: Floats>(lanes: u32, corners: &[[F; 3]; 3], t_max: F) -> u32 {
+    let ends = column(t_max);
     exact_crossings(lanes, corners)
         .filter(|&(lane, [t, ..])| t > 0.0 && t < ends[lane])
         .fold(0, |met, (lane, _)| met | 1 << lane)
