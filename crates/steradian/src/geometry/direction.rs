@@ -58,6 +58,16 @@ impl Direction {
         Self(vector)
     }
 
+    /// (sinθ cosφ, sinθ sinφ, cosθ) from the sine and cosine of θ.
+    #[inline]
+    pub(crate) fn from_polar(sin_theta: f64, cos_theta: f64, phi: f64) -> Self {
+        Self::from_unit(Vector::new(
+            sin_theta * libm::cos(phi),
+            sin_theta * libm::sin(phi),
+            cos_theta,
+        ))
+    }
+
     /// The vector of length one.
     #[inline]
     pub const fn to_vector(self) -> Vector {

@@ -232,7 +232,10 @@ mod tests {
     fn the_images_of_the_axes_define_a_transform() {
         let images = [Direction::Y, Direction::Z, Direction::X].map(Vector::from);
         let cycle = Transform::from_axes(images);
-        assert_eq!(cycle.point(Point::new(1.0, 2.0, 3.0)), Point::new(3.0, 1.0, 2.0));
+        assert_eq!(
+            cycle.point(Point::new(1.0, 2.0, 3.0)),
+            Point::new(3.0, 1.0, 2.0)
+        );
     }
 
     #[test]
