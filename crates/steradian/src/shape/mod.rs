@@ -1,1 +1,24 @@
-//! shape
+//! Surfaces of a scene: their area, uniform sampling of it, and what rays meet.
+//!
+//! Each [`Form`] is one shape of f64 coordinates; [`Surfaces`] holds all of them in the form the ray kernel wants and
+//! knows which part of which shape a primitive belongs to. A planar shape enters the kernel as triangles and stays
+//! one shape for area, emission and sampling.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | A = ∫ dA | area of a form | m² |
+//! | p(x) = 1/A | density of uniform area sampling | 1/m² |
+
+mod disc;
+mod form;
+mod mesh;
+mod parallelogram;
+mod sphere;
+mod surfaces;
+
+pub use disc::Disc;
+pub use form::{AreaSample, Form};
+pub use mesh::TriangleMesh;
+pub use parallelogram::Parallelogram;
+pub use sphere::{Sphere, SpherePort};
+pub use surfaces::{PartId, Placed, QuadricRecord, ShapeId, Surfaces, TriangleRecord};
