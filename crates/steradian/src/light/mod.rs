@@ -1,1 +1,142 @@
-//! light
+//! Lights: where light comes from, and how a surface samples it.
+//!
+//! Every sample of every light is one [`LightSample`], so that reflection is one line for all of them:
+//! L(d_e) += ρ · E_n · cosθ_i, with the normal irradiance E_n = I/r² of a point light and L·Δω = L/p of an area.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | E_n | irradiance of a plane that faces the light | W/m² |
+//! | E = E_n cosθ | irradiance of the receiver (foreshortened) | W/m² |
+//! | p | density of the sampled direction | 1/sr |
+
+mod area;
+mod point;
+mod spot;
+
+pub use area::AreaLight;
+pub use point::PointLight;
+pub use spot::{Beam, SpotLight};
+
+use crate::geometry::{Direction, Point};
+use crate::quantity::{Irradiance, Radiance};
+use crate::shape::Form;
+use crate::spectrum::MAX_LANES;
+
+/// A light, by number.
+#[derive(Copy, Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct LightId(pub u32);
+
+/// How likely a light sample was.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub enum Density {
+    /// Density in solid angle, 1/sr.
+    SolidAngle(f64),
+    /// The only direction a light without extent is seen in.
+    Delta,
+}
+
+/// One sample of a light as seen from a receiver, occlusion not counted.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct LightSample {
+    /// d_i: from the receiver towards the light.
+    pub direction: Direction,
+    /// To the light, in metres; infinite for a directional light.
+    pub distance: f64,
+    /// E_n of each lane.
+    pub normal_irradiance: [Irradiance; MAX_LANES],
+    /// E_n·cosθ of each lane, zero from behind.
+    pub irradiance: [Irradiance; MAX_LANES],
+    /// How likely it was.
+    pub density: Density,
+    /// The light's group.
+    pub group: u32,
+}
+
+/// A light with its group.
+#[derive(Clone, Debug)]
+pub struct Light {
+    /// For reports.
+    pub name: String,
+    /// Number of its group.
+    pub group: u32,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// The closed set of lights.
+#[derive(Clone, Debug)]
+pub enum Kind {
+    /// Equal intensity in all directions.
+    Point(PointLight),
+    /// A beam.
+    Spot(SpotLight),
+    /// Parallel light.
+    Directional {
+        /// The way it travels.
+        direction: Direction,
+        /// On a plane that faces it.
+        irradiance: [Irradiance; MAX_LANES],
+    },
+    /// The same radiance from all directions.
+    Environment {
+        /// The radiance.
+        radiance: [Radiance; MAX_LANES],
+    },
+    /// A shape that emits.
+    Area(AreaLight),
+}
+
+impl Light {
+    /// Whether the light has no extent, so that only next-event estimation can find it.
+    pub fn is_delta(&self) -> bool {
+        matches!(
+            self.kind,
+            Kind::Point(_) | Kind::Spot(_) | Kind::Directional { .. }
+        )
+    }
+
+    /// A sample as seen from `point` on a surface of this `normal`; `None` when the light gives nothing there.
+    ///
+    /// `form` finds the geometry of an area light. A constant environment is not sampled here: a surface's own
+    /// directions sample it as well as any.
+    pub fn sample<'a>(
+        &self,
+        point: Point,
+        normal: Direction,
+        u: [f64; 2],
+        form: impl Fn(&AreaLight) -> &'a Form,
+    ) -> Option<LightSample> {
+        let incident = match &self.kind {
+            Kind::Point(light) => light.incident(point),
+            Kind::Spot(light) => light.incident(point),
+            Kind::Directional {
+                direction,
+                irradiance,
+            } => Some(Incident {
+                direction: -*direction,
+                distance: f64::INFINITY,
+                normal_irradiance: *irradiance,
+                density: Density::Delta,
+            }),
+            Kind::Environment { .. } => None,
+            Kind::Area(light) => light.incident(form(light), point, u),
+        }?;
+        let cos_theta = incident.direction.dot(normal).max(0.0);
+        Some(LightSample {
+            direction: incident.direction,
+            distance: incident.distance,
+            normal_irradiance: incident.normal_irradiance,
+            irradiance: incident.normal_irradiance.map(|e| e * cos_theta),
+            density: incident.density,
+            group: self.group,
+        })
+    }
+}
+
+/// What arrives at a point before foreshortening.
+pub(crate) struct Incident {
+    pub direction: Direction,
+    pub distance: f64,
+    pub normal_irradiance: [Irradiance; MAX_LANES],
+    pub density: Density,
+}
