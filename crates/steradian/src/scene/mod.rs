@@ -1,1 +1,205 @@
-//! scene
+//! Scenes: from a description to an immutable, validated scene.
+
+mod box_form;
+pub mod description;
+mod forms;
+mod lights;
+mod materials;
+mod problem;
+mod sensors;
+
+pub use problem::{Part, Place, Problem};
+
+use crate::light::{Kind, Light, LightId};
+use crate::material::{Material, MaterialId};
+use crate::quantity::LuminousEfficacy;
+use crate::sensor::Sensor;
+use crate::shape::{ShapeId, Surfaces};
+use crate::spectrum::Lanes;
+use description::{SceneDescription, SpectrumMode};
+
+/// What one part of a shape is made of.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct PartProperties {
+    /// Material of the front.
+    pub front: MaterialId,
+    /// Material of the back.
+    pub back: MaterialId,
+    /// The light that this part belongs to.
+    pub light: Option<LightId>,
+}
+
+/// A validated scene, ready to be simulated.
+pub struct Scene {
+    name: String,
+    lanes: Lanes,
+    efficacy: f64,
+    links_watts_and_lumens: bool,
+    groups: Vec<String>,
+    surfaces: Surfaces,
+    shape_names: Vec<String>,
+    parts: Vec<PartProperties>,
+    materials: Vec<(String, Material)>,
+    lights: Vec<Light>,
+    sensors: Vec<Sensor>,
+    warnings: Vec<String>,
+}
+
+impl Scene {
+    /// Validates `description`, or says everything that is wrong with it.
+    pub fn new(description: &SceneDescription) -> Result<Self, Vec<Problem>> {
+        let mut problems = Vec::new();
+        let lanes = lanes(description, &mut problems);
+        let efficacy = efficacy(description, &mut problems);
+        let materials = materials::prepare(&description.materials, &lanes, &mut problems);
+        let mut forms = forms::prepare(&description.shapes, &materials, &mut problems);
+        let placed = std::mem::take(&mut forms.placed);
+        let mut lights = lights::Builder::new(&lanes, efficacy);
+        lights.add_emission(&description.shapes, &mut forms, &placed, &mut problems);
+        lights.add_lights(&description.lights, &mut problems);
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let surfaces = Surfaces::new(placed)
+            .map_err(|error| vec![Problem::of(Part::Scene, error.to_string())])?;
+        let context = sensors::Context {
+            lanes: &lanes,
+            efficacy,
+            surfaces: &surfaces,
+            forms: &forms,
+            lights: &lights,
+            description,
+        };
+        let sensors = sensors::prepare(&context, &mut problems);
+        if lights.lights.is_empty() {
+            problems.push(
+                Problem::of(Part::Scene, "the scene has no light")
+                    .with_hint("add a [[lights]] entry, or `emission` to a shape"),
+            );
+        }
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        Ok(Self {
+            name: description.name.clone(),
+            links_watts_and_lumens: sensors::crosses(&sensors, &lights),
+            efficacy,
+            groups: lights.groups,
+            surfaces,
+            shape_names: forms.names,
+            parts: forms.parts,
+            materials: materials.materials,
+            lights: lights.lights,
+            sensors,
+            warnings: Vec::new(),
+            lanes,
+        })
+    }
+
+    /// The title.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What the lanes mean.
+    pub fn lanes(&self) -> &Lanes {
+        &self.lanes
+    }
+
+    /// K of this run.
+    pub fn luminous_efficacy(&self) -> LuminousEfficacy {
+        LuminousEfficacy::from_lumens_per_watt(self.efficacy)
+    }
+
+    /// K as reports state it; `None` where no band carries light.
+    pub fn reported_efficacy(&self) -> Option<f64> {
+        self.lanes.light_weights().map(|_| self.efficacy)
+    }
+
+    /// Whether any reading depends on K: watts in and lumens out, or the other way.
+    pub fn links_watts_and_lumens(&self) -> bool {
+        self.links_watts_and_lumens
+    }
+
+    /// Names of the light groups.
+    pub fn groups(&self) -> &[String] {
+        &self.groups
+    }
+
+    /// The geometry.
+    pub fn surfaces(&self) -> &Surfaces {
+        &self.surfaces
+    }
+
+    /// Name of a shape, or its kind and number.
+    pub fn shape_name(&self, id: ShapeId) -> &str {
+        &self.shape_names[id.0 as usize]
+    }
+
+    /// Parts of shapes, by number.
+    pub fn parts(&self) -> &[PartProperties] {
+        &self.parts
+    }
+
+    /// Name and material, by number.
+    pub fn materials(&self) -> &[(String, Material)] {
+        &self.materials
+    }
+
+    /// Material with this number.
+    pub fn material(&self, id: MaterialId) -> &Material {
+        &self.materials[id.0 as usize].1
+    }
+
+    /// Lights, by number.
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// Sensors in file order.
+    pub fn sensors(&self) -> &[Sensor] {
+        &self.sensors
+    }
+
+    /// What a reader of the results should know.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Number of columns of a reading: groups × lanes.
+    pub fn columns(&self) -> usize {
+        self.groups.len() * self.lanes.count()
+    }
+
+    /// Radiance of the constant environments, by group and lane.
+    pub fn environment(&self) -> impl Iterator<Item = (u32, [f64; 4])> + '_ {
+        self.lights.iter().filter_map(|light| match &light.kind {
+            Kind::Environment { radiance } => Some((
+                light.group,
+                radiance.map(|value| value.to_watts_per_square_metre_steradian()),
+            )),
+            _ => None,
+        })
+    }
+}
+
+fn lanes(description: &SceneDescription, problems: &mut Vec<Problem>) -> Lanes {
+    match &description.spectrum {
+        SpectrumMode::Rgb => Lanes::rgb(),
+        SpectrumMode::Broadband { bands } => Lanes::broadband(bands).unwrap_or_else(|error| {
+            problems.push(Problem::at(Part::Scene, "spectrum", error.to_string()));
+            Lanes::rgb()
+        }),
+    }
+}
+
+fn efficacy(description: &SceneDescription, problems: &mut Vec<Problem>) -> f64 {
+    let stated = description
+        .luminous_efficacy
+        .unwrap_or(LuminousEfficacy::RADIANCE_WHITE.to_lumens_per_watt());
+    if !(stated > 0.0 && stated <= LuminousEfficacy::MAXIMUM.to_lumens_per_watt()) {
+        let message = format!("luminous_efficacy lies above 0 and at most 683 lm/W, not {stated}");
+        problems.push(Problem::at(Part::Scene, "luminous_efficacy", message));
+    }
+    stated
+}

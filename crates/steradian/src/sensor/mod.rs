@@ -1,1 +1,103 @@
-//! sensor
+//! Sensors: what is asked of a scene.
+//!
+//! | sensor | law | unit |
+//! |---|---|---|
+//! | irradiance | E = ∫ L cosθ dω over the hemisphere of the normal | W/m² or lx |
+//! | flux | Φ = ∫ E dA over a surface | W or lm |
+//! | radiance | L along a ray | W/(m² sr) or cd/m² |
+//! | scalar irradiance | E₀ = ∫ L dω over the sphere | W/m² or lx |
+//!
+//! A sensor of any kind sees every light: lights without extent by the inverse-square law, all others by sampling.
+
+mod camera;
+pub(crate) mod readout;
+
+pub use camera::Camera;
+pub use readout::{Readout, Response, readouts};
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Direction, Point};
+use crate::shape::{Form, ShapeId};
+
+/// The surface a receiver lies on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SitsOn {
+    /// Name (or kind and number) of the shape.
+    pub shape: String,
+    /// `front` or `back`.
+    pub side: String,
+}
+
+/// A point with a normal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Receiver {
+    /// Where.
+    pub position: Point,
+    /// Its normal.
+    pub normal: Direction,
+    /// The surface it lies on, if any.
+    pub sits_on: Option<SitsOn>,
+    /// Distance to keep from that surface so that rays do not meet it, in metres.
+    pub clearance: f64,
+}
+
+/// Which flux is counted: incident·a + (incident, reflected)·b + emitted·c.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub enum FluxOf {
+    /// What arrives.
+    Incident,
+    /// What is emitted and reflected.
+    Leaving,
+    /// What arrives and is not reflected.
+    Absorbed,
+    /// Incident minus leaving.
+    Net,
+}
+
+/// The surface of a flux sensor.
+#[derive(Clone, Debug)]
+pub enum FluxSurface {
+    /// A side of shapes of the scene (all copies of a repeat).
+    Shapes {
+        /// The shapes.
+        shapes: Vec<ShapeId>,
+        /// The front, or the back.
+        front: bool,
+    },
+    /// A surface that does not block light, counted on its front.
+    Virtual(Form),
+}
+
+/// A prepared sensor.
+#[derive(Clone, Debug)]
+pub struct Sensor {
+    /// Its name.
+    pub name: String,
+    /// What it reports.
+    pub readouts: Vec<Readout>,
+    /// What it measures.
+    pub kind: Kind,
+}
+
+/// The closed set of sensors.
+#[derive(Clone, Debug)]
+pub enum Kind {
+    /// Irradiance at points.
+    Irradiance(Vec<Receiver>),
+    /// Scalar irradiance at points.
+    ScalarIrradiance(Vec<Point>),
+    /// Radiance along rays.
+    Radiance(Vec<(Point, Direction)>),
+    /// Flux of a surface.
+    Flux {
+        /// The surface.
+        surface: FluxSurface,
+        /// Its area in m².
+        area: f64,
+        /// What is counted.
+        of: FluxOf,
+    },
+    /// A picture.
+    Camera(Camera),
+}

@@ -1,0 +1,433 @@
+//! A scene as its author states it: plain, typed, editable, not yet validated.
+//!
+//! Readers of every file format produce a [`SceneDescription`]; [`Scene::new`](super::Scene::new) turns it into an
+//! immutable, validated [`Scene`](super::Scene) or says everything that is wrong with it.
+
+use std::sync::Arc;
+
+use crate::geometry::{Point, Transform, Vector};
+use crate::quantity::{
+    Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
+    LuminousFlux, LuminousIntensity, Radiance,
+};
+pub use crate::sensor::Response;
+pub use crate::spectrum::LaneValues;
+
+/// Everything a run needs to know about a scene.
+#[derive(Clone, Debug, Default)]
+pub struct SceneDescription {
+    /// A title for reports.
+    pub name: String,
+    /// What the four lanes of a spectrum mean in this run.
+    pub spectrum: SpectrumMode,
+    /// Which quantities sensors report unless they say otherwise.
+    pub response: Response,
+    /// Luminous efficacy K in lm/W that links radiant and photometric quantities; `None` is the stated default.
+    pub luminous_efficacy: Option<f64>,
+    /// Materials by name.
+    pub materials: Vec<MaterialDescription>,
+    /// Shapes, in file order.
+    pub shapes: Vec<ShapeDescription>,
+    /// Lights that are not shapes, in file order.
+    pub lights: Vec<LightDescription>,
+    /// Sensors, in file order.
+    pub sensors: Vec<SensorDescription>,
+}
+
+/// What the lanes of a spectrum mean.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpectrumMode {
+    /// Linear Rec.709 channels.
+    Rgb,
+    /// One to four named bands; `visible` is the band that carries light.
+    Broadband {
+        /// Names of the bands, in order.
+        bands: Vec<String>,
+    },
+}
+
+impl Default for SpectrumMode {
+    fn default() -> Self {
+        Self::Broadband {
+            bands: vec!["total".into()],
+        }
+    }
+}
+
+/// A named material.
+#[derive(Clone, Debug)]
+pub struct MaterialDescription {
+    /// The name shapes refer to.
+    pub name: String,
+    /// How it reflects.
+    pub model: MaterialModel,
+}
+
+/// The reflection models a description can name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialModel {
+    /// Lambertian reflection, ρ/π.
+    Lambertian {
+        /// Directional-hemispherical reflectance, 0 to 1.
+        reflectance: LaneValues,
+    },
+    /// A perfect plane mirror of a given reflectance.
+    Mirror {
+        /// Specular reflectance, 0 to 1.
+        reflectance: LaneValues,
+    },
+    /// A material for each side, by name.
+    TwoSided {
+        /// Material of the front side (the side the normal points to).
+        front: String,
+        /// Material of the back side.
+        back: String,
+    },
+}
+
+/// A shape with what it is made of and what it emits.
+#[derive(Clone, Debug)]
+pub struct ShapeDescription {
+    /// The name sensors refer to.
+    pub name: Option<String>,
+    /// The geometry before `transform`.
+    pub geometry: GeometryDescription,
+    /// Material name; `None` is black.
+    pub material: Option<String>,
+    /// Applied to the geometry.
+    pub transform: Transform,
+    /// Copies at a fixed step.
+    pub repeat: Option<Repeat>,
+    /// What the surface emits.
+    pub emission: Option<EmissionDescription>,
+}
+
+/// `count` copies, copy `i` moved by `i · step`, for each axis of the array.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repeat {
+    /// Copies along each axis of the array (at least one axis).
+    pub count: Vec<u32>,
+    /// The step of each axis, in metres.
+    pub step: Vec<Vector>,
+}
+
+/// The kinds of geometry.
+#[derive(Clone, Debug)]
+pub enum GeometryDescription {
+    /// `origin + s·edges[0] + t·edges[1]`, s and t in 0..1; the normal is edges[0] × edges[1].
+    Rectangle {
+        /// A corner.
+        origin: Point,
+        /// The two edges that leave it (orthogonal, or a parallelogram).
+        edges: [Vector; 2],
+    },
+    /// A planar polygon, counter-clockwise as seen from the front.
+    Polygon {
+        /// The outer boundary.
+        vertices: Vec<Point>,
+        /// Boundaries of holes.
+        holes: Vec<Vec<Point>>,
+    },
+    /// A disc or annulus.
+    Disc {
+        /// The centre.
+        center: Point,
+        /// The front side's normal (any length).
+        normal: Vector,
+        /// Outer radius in metres.
+        radius: f64,
+        /// Inner radius in metres, 0 for a full disc.
+        inner_radius: f64,
+    },
+    /// A sphere, possibly with circular openings.
+    Sphere {
+        /// The centre.
+        center: Point,
+        /// Radius in metres.
+        radius: f64,
+        /// The front side is the inside.
+        inside: bool,
+        /// Openings.
+        ports: Vec<Port>,
+    },
+    /// An axis-aligned box.
+    Box {
+        /// The least corner.
+        min: Point,
+        /// The greatest corner.
+        max: Point,
+        /// The front sides face inwards (a room).
+        inside: bool,
+        /// Materials by face: `floor`, `ceiling`, `walls`, `x-`, `x+`, `y-`, `y+`, `z-`, `z+`; a later entry wins.
+        faces: Vec<(String, String)>,
+        /// Rectangular openings.
+        openings: Vec<Opening>,
+    },
+    /// A triangle mesh.
+    Mesh(Arc<MeshData>),
+    /// The infinite plane z = `height`, front side up.
+    Ground {
+        /// Its height in metres.
+        height: f64,
+    },
+}
+
+/// Vertices and triangles of a mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshData {
+    /// Vertices.
+    pub vertices: Vec<Point>,
+    /// Triples of vertex indices, counter-clockwise from the front.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// A circular opening in a sphere: the cap of `half_angle` around `direction`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Port {
+    /// From the centre towards the middle of the port (any length).
+    pub direction: Vector,
+    /// Half the angle that the port subtends at the centre.
+    pub half_angle: Angle,
+}
+
+/// A rectangular opening in a face of a box, filled with `material` or empty.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opening {
+    /// `x-`, `x+`, `y-`, `y+`, `z-` (floor) or `z+` (ceiling).
+    pub face: String,
+    /// u, v, width, height in metres from the face's least corner, u along the first remaining axis.
+    pub rect: [f64; 4],
+    /// Material of the filling; `None` is a hole.
+    pub material: Option<String>,
+}
+
+/// What a surface emits: a Lambertian emitter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EmissionDescription {
+    /// How much.
+    pub amount: EmissionAmount,
+    /// The shape of its spectrum; `None` is white.
+    pub spectrum: Option<LaneValues>,
+    /// Both sides emit; else only the front.
+    pub two_sided: bool,
+    /// Light group.
+    pub group: Option<String>,
+}
+
+/// How much a surface emits; reflected light not counted.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub enum EmissionAmount {
+    /// Radiance of each emitting side.
+    Radiance(Amount<Radiance, Luminance>),
+    /// Exitance of each emitting side.
+    Exitance(Amount<Exitance, LuminousExitance>),
+    /// Total flux of all emitting sides (and of each copy of a repeat).
+    Flux(Amount<Flux, LuminousFlux>),
+}
+
+/// A light that is not a shape.
+#[derive(Clone, Debug)]
+pub struct LightDescription {
+    /// A name for reports.
+    pub name: Option<String>,
+    /// Light group; `None` is `default`.
+    pub group: Option<String>,
+    /// The shape of its spectrum; `None` is white.
+    pub spectrum: Option<LaneValues>,
+    /// Copies at a fixed step (not for directional lights and environments).
+    pub repeat: Option<Repeat>,
+    /// What it is.
+    pub kind: LightKind,
+}
+
+/// The kinds of lights.
+#[derive(Clone, Debug)]
+pub enum LightKind {
+    /// Radiates the same intensity in all directions.
+    Point {
+        /// Where.
+        position: Point,
+        /// How much.
+        power: PointPower,
+    },
+    /// Radiates into a cone.
+    Spot {
+        /// Where.
+        position: Point,
+        /// The axis (any length).
+        direction: Vector,
+        /// The shape of the beam.
+        beam: SpotBeam,
+        /// Peak intensity, or flux.
+        power: PointPower,
+    },
+    /// Parallel light from infinitely far away.
+    Directional {
+        /// The way the light travels (any length).
+        direction: Vector,
+        /// On a plane that faces it.
+        irradiance: Amount<Irradiance, Illuminance>,
+    },
+    /// Constant radiance from everywhere.
+    Environment {
+        /// The radiance.
+        radiance: Amount<Radiance, Luminance>,
+    },
+}
+
+/// Intensity or total flux of a light without extent.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub enum PointPower {
+    /// (Peak) intensity.
+    Intensity(Amount<Intensity, LuminousIntensity>),
+    /// Total flux.
+    Flux(Amount<Flux, LuminousFlux>),
+}
+
+/// How a spot's intensity falls off with the angle from its axis.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub enum SpotBeam {
+    /// Constant out to the cutoff (a half angle).
+    Uniform {
+        /// Half angle.
+        cutoff: Angle,
+    },
+    /// cosⁿθ out to the cutoff.
+    CosinePower {
+        /// The exponent n.
+        exponent: f64,
+        /// Half angle, at most 90°.
+        cutoff: Angle,
+    },
+    /// Constant to `inner`, then ((cosθ − cos cutoff)/(cos inner − cos cutoff))² (glTF KHR_lights_punctual).
+    Smooth {
+        /// Half angle of the constant part.
+        inner: Angle,
+        /// Half angle beyond which it is dark.
+        cutoff: Angle,
+    },
+}
+
+/// A sensor.
+#[derive(Clone, Debug)]
+pub struct SensorDescription {
+    /// Its name; unique.
+    pub name: String,
+    /// Overrides the scene's response.
+    pub response: Option<Response>,
+    /// What it measures.
+    pub kind: SensorKind,
+}
+
+/// The kinds of sensors.
+#[derive(Clone, Debug)]
+pub enum SensorKind {
+    /// Irradiance (illuminance).
+    Irradiance(Receivers),
+    /// Flux through or from a surface.
+    Flux {
+        /// The surface.
+        surface: FluxSurface,
+        /// What is counted.
+        of: FluxOf,
+    },
+    /// Radiance (luminance) along rays.
+    Radiance {
+        /// Origin and direction of each ray.
+        rays: Vec<(Point, Vector)>,
+    },
+    /// Irradiance on a small sphere: ∫ L dω (fluence rate).
+    ScalarIrradiance {
+        /// Where.
+        points: Vec<Point>,
+    },
+    /// A picture.
+    Camera(CameraDescription),
+}
+
+/// Points with normals.
+#[derive(Clone, Debug)]
+pub enum Receivers {
+    /// Position and normal of each.
+    Points(Vec<(Point, Vector)>),
+    /// Cell centres of a grid.
+    Grid {
+        /// A corner.
+        origin: Point,
+        /// The two sides.
+        edges: [Vector; 2],
+        /// Cells along each.
+        count: [u32; 2],
+        /// Normal; `None` is edges[0] × edges[1].
+        normal: Option<Vector>,
+    },
+    /// Points spread over a shape.
+    Shape {
+        /// Its name.
+        shape: String,
+        /// Front or back.
+        side: Side,
+        /// How many points.
+        count: u32,
+        /// Distance from the surface in metres.
+        offset: f64,
+    },
+}
+
+/// A side of a surface.
+#[derive(Copy, Clone, Debug, Default, PartialEq, Eq)]
+pub enum Side {
+    /// The side the normal points to.
+    #[default]
+    Front,
+    /// The other.
+    Back,
+}
+
+/// The surface of a flux sensor.
+#[derive(Clone, Debug)]
+pub enum FluxSurface {
+    /// A shape of the scene, by name, on one side.
+    Shape {
+        /// Its name.
+        name: String,
+        /// Which side.
+        side: Side,
+    },
+    /// A surface that does not block light (a rectangle, polygon, disc or sphere), counted on its front.
+    Virtual {
+        /// The geometry.
+        geometry: GeometryDescription,
+        /// Applied to it.
+        transform: Transform,
+    },
+}
+
+/// Which flux is counted.
+#[derive(Copy, Clone, Debug, Default, PartialEq, Eq)]
+pub enum FluxOf {
+    /// What arrives.
+    #[default]
+    Incident,
+    /// What leaves: emitted and reflected (or, for a surface that does not block light, what passes the other way).
+    Leaving,
+    /// What arrives and is not reflected (shapes only).
+    Absorbed,
+    /// Incident minus leaving.
+    Net,
+}
+
+/// A perspective camera.
+#[derive(Clone, Debug)]
+pub struct CameraDescription {
+    /// The eye.
+    pub position: Point,
+    /// The point in the middle of the picture.
+    pub look_at: Point,
+    /// Up in the picture.
+    pub up: Vector,
+    /// Full horizontal angle of view.
+    pub fov: Angle,
+    /// Width and height in pixels.
+    pub resolution: [u32; 2],
+}
