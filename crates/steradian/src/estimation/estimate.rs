@@ -91,6 +91,21 @@ impl Estimate {
         }
     }
 
+    /// This estimate with another, independent standard error added; the interval widens in proportion.
+    #[must_use]
+    pub fn widened(self, std_error: f64) -> Self {
+        let total = (self.std_error * self.std_error + std_error * std_error).sqrt();
+        let widen = |[low, high]: [f64; 2]| {
+            let half_width = 0.5 * (high - low) + 2.0 * (total - self.std_error);
+            [self.value - half_width, self.value + half_width]
+        };
+        Self {
+            std_error: total,
+            interval: self.interval.map(widen),
+            ..self
+        }
+    }
+
     /// This estimate in another unit.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {

@@ -1,1 +1,20 @@
-//! transport
+//! Light transport: from a scene and a plan to measurements and pictures.
+//!
+//! [`measure`] reads every sensor but cameras, [`render`] a camera. Both run the [`path`](self) estimator under the
+//! engine of [`estimation`](crate::estimation), which decides how many samples are taken and how large the error is.
+
+mod columns;
+mod exact;
+mod interaction;
+mod measure;
+mod meters;
+mod next_event;
+mod path;
+pub mod reflection;
+mod run;
+mod scatter;
+mod tables;
+mod unsampled;
+
+pub use run::{MeasureOptions, SimulationError, measure};
+pub use unsampled::unsampled;

@@ -1,0 +1,183 @@
+//! Columns of a batch of paths: structures of arrays, so that loops run over paths.
+
+use steradian_kernel::{HitBatch, RayBatch};
+
+use crate::spectrum::MAX_LANES;
+
+/// Paths traced together.
+pub(super) const BATCH: usize = 1024;
+
+/// Which stream and sample a path draws its random numbers from, and where its light is added.
+#[derive(Default)]
+pub(super) struct Identity {
+    pub slot: Vec<u32>,
+    pub key: Vec<u64>,
+    pub index: Vec<u32>,
+}
+
+impl Identity {
+    pub fn clear(&mut self) {
+        self.slot.clear();
+        self.key.clear();
+        self.index.clear();
+    }
+
+    pub fn push(&mut self, slot: u32, key: u64, index: u32) {
+        self.slot.push(slot);
+        self.key.push(key);
+        self.index.push(index);
+    }
+
+    pub fn len(&self) -> usize {
+        self.slot.len()
+    }
+}
+
+/// Paths on their way to the next surface.
+#[derive(Default)]
+pub(super) struct Flights {
+    pub rays: RayBatch,
+    pub identity: Identity,
+    pub throughput: [Vec<f32>; MAX_LANES],
+    /// Density of the direction in 1/sr; infinite where no light sampling competes.
+    pub pdf: Vec<f32>,
+    /// Numbers that the next vertex samples a light with.
+    pub light_u: Vec<f32>,
+    pub light_v: Vec<f32>,
+}
+
+impl Flights {
+    pub fn clear(&mut self) {
+        self.rays.clear();
+        self.identity.clear();
+        self.throughput.iter_mut().for_each(Vec::clear);
+        for column in [&mut self.pdf, &mut self.light_u, &mut self.light_v] {
+            column.clear();
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        self.identity.len()
+    }
+}
+
+/// Paths at a surface or a meter, facing `normal`.
+#[derive(Default)]
+pub(super) struct Vertices {
+    pub x: Vec<f32>,
+    pub y: Vec<f32>,
+    pub z: Vec<f32>,
+    pub normal_x: Vec<f32>,
+    pub normal_y: Vec<f32>,
+    pub normal_z: Vec<f32>,
+    /// Distance along the normal that clears the surface.
+    pub clearance: Vec<f32>,
+    /// Throughput × ρ: radiance gained per unit of irradiance. For a mirror: throughput × reflectance.
+    pub response: [Vec<f32>; MAX_LANES],
+    pub identity: Identity,
+    pub light_u: Vec<f32>,
+    pub light_v: Vec<f32>,
+}
+
+impl Vertices {
+    pub fn clear(&mut self) {
+        let columns = [
+            &mut self.x,
+            &mut self.y,
+            &mut self.z,
+            &mut self.normal_x,
+            &mut self.normal_y,
+            &mut self.normal_z,
+        ];
+        columns.into_iter().for_each(Vec::clear);
+        for column in [&mut self.clearance, &mut self.light_u, &mut self.light_v] {
+            column.clear();
+        }
+        self.response.iter_mut().for_each(Vec::clear);
+        self.identity.clear();
+    }
+
+    pub fn len(&self) -> usize {
+        self.identity.len()
+    }
+
+    pub fn push(
+        &mut self,
+        place: Place,
+        response: [f32; MAX_LANES],
+        identity: (u32, u64, u32),
+        light: [f32; 2],
+    ) {
+        self.x.push(place.point[0]);
+        self.y.push(place.point[1]);
+        self.z.push(place.point[2]);
+        self.normal_x.push(place.normal[0]);
+        self.normal_y.push(place.normal[1]);
+        self.normal_z.push(place.normal[2]);
+        self.clearance.push(place.clearance);
+        for (column, lane) in self.response.iter_mut().zip(response) {
+            column.push(lane);
+        }
+        self.identity.push(identity.0, identity.1, identity.2);
+        self.light_u.push(light[0]);
+        self.light_v.push(light[1]);
+    }
+
+    pub fn place(&self, i: usize) -> Place {
+        Place {
+            point: [self.x[i], self.y[i], self.z[i]],
+            normal: [self.normal_x[i], self.normal_y[i], self.normal_z[i]],
+            clearance: self.clearance[i],
+        }
+    }
+}
+
+/// A point of a surface, in kernel coordinates.
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Place {
+    pub point: [f32; 3],
+    pub normal: [f32; 3],
+    pub clearance: f32,
+}
+
+impl Place {
+    /// The point moved off its surface.
+    #[inline(always)]
+    pub fn cleared(&self) -> [f32; 3] {
+        std::array::from_fn(|axis| self.point[axis] + self.normal[axis] * self.clearance)
+    }
+}
+
+/// Light samples waiting for their shadow rays.
+#[derive(Default)]
+pub(super) struct Shadows {
+    pub rays: RayBatch,
+    pub occluded: Vec<bool>,
+    pub slot: Vec<u32>,
+    pub group: Vec<u32>,
+    pub gain: [Vec<f32>; MAX_LANES],
+}
+
+impl Shadows {
+    pub fn clear(&mut self) {
+        self.rays.clear();
+        self.slot.clear();
+        self.group.clear();
+        self.gain.iter_mut().for_each(Vec::clear);
+    }
+}
+
+/// Scratch of one thread.
+#[derive(Default)]
+pub struct Workspace {
+    pub(super) flights: Flights,
+    pub(super) hits: HitBatch,
+    pub(super) vertices: Vertices,
+    pub(super) mirrors: Vertices,
+    /// Direction towards the viewer at each of `mirrors`.
+    pub(super) viewer: [Vec<f32>; 3],
+    pub(super) shadows: Shadows,
+    pub(super) uniforms: [Vec<f32>; 4],
+    /// Gathered light: column × slot.
+    pub(super) gathered: Vec<f32>,
+}

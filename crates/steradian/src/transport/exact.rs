@@ -1,0 +1,134 @@
+//! The parts of a reading that a closed form gives: lights without extent at a point, and emission.
+
+use steradian_kernel::{InstructionSet, RayBatch};
+
+use crate::geometry::{Direction, Point};
+use crate::light::Kind;
+use crate::scene::Scene;
+use crate::sensor::FluxOf;
+use crate::shape::Placed;
+
+/// Irradiance by lights without extent, E = Σ E_n cosθ · V, by column; scalar irradiance Σ E_n · V without a normal.
+pub(super) fn irradiance(
+    scene: &Scene,
+    point: Point,
+    normal: Option<Direction>,
+    clearance: f64,
+) -> Vec<f64> {
+    let lanes = scene.lanes().count();
+    let mut columns = vec![0.0; scene.columns()];
+    let mut shadows = Vec::new();
+    let mut rays = RayBatch::default();
+    for light in scene.lights().iter().filter(|light| light.is_delta()) {
+        let facing = normal.map_or_else(|| towards(&light.kind, point), Some);
+        let Some(sample) = facing.and_then(|normal| {
+            light.sample(point, normal, [0.0; 2], |_| {
+                unreachable!("lights without extent have no form")
+            })
+        }) else {
+            continue;
+        };
+        if sample
+            .irradiance
+            .iter()
+            .all(|lane| lane.to_watts_per_square_metre() == 0.0)
+        {
+            continue;
+        }
+        let start =
+            point + facing.map_or(crate::geometry::Vector::ZERO, |normal| normal * clearance);
+        let (span, reach) = match sample.distance.is_finite() {
+            true => (point + sample.direction * sample.distance - start, 1.0),
+            false => (sample.direction.to_vector(), f32::INFINITY),
+        };
+        rays.push(
+            scene.surfaces().to_kernel(start),
+            span.to_array().map(|x| x as f32),
+            reach,
+        );
+        shadows.push(sample);
+    }
+    let mut occluded = Vec::new();
+    scene
+        .surfaces()
+        .occluded(&rays, &mut occluded, InstructionSet::detect());
+    for (sample, _) in shadows
+        .iter()
+        .zip(occluded)
+        .filter(|(_, occluded)| !occluded)
+    {
+        let column = &mut columns[sample.group as usize * lanes..][..lanes];
+        column
+            .iter_mut()
+            .zip(sample.irradiance)
+            .for_each(|(sum, lane)| *sum += lane.to_watts_per_square_metre());
+    }
+    columns
+}
+
+/// The direction in which a receiver of scalar irradiance faces a light.
+fn towards(kind: &Kind, point: Point) -> Option<Direction> {
+    match kind {
+        Kind::Point(light) => Direction::new(light.position - point).ok(),
+        Kind::Spot(light) => Direction::new(light.position - point).ok(),
+        Kind::Directional { direction, .. } => Some(-*direction),
+        Kind::Environment { .. } | Kind::Area(_) => None,
+    }
+}
+
+/// Adds the radiance that a side emits.
+pub(super) fn emission(scene: &Scene, side: u32, columns: &mut [f64]) {
+    let (part, front) = (scene.parts()[side as usize / 2], side.is_multiple_of(2));
+    add_emission(scene, part.light, front, 1.0, columns);
+}
+
+/// Adds the flux that a shape emits from one side, as far as it counts: all of what leaves, less in a net.
+pub(super) fn emitted_flux(
+    scene: &Scene,
+    placed: &Placed,
+    front: bool,
+    of: FluxOf,
+    columns: &mut [f64],
+) {
+    let sign = match of {
+        FluxOf::Leaving => 1.0,
+        FluxOf::Net => -1.0,
+        FluxOf::Incident | FluxOf::Absorbed => return,
+    };
+    let light = placed
+        .parts
+        .first()
+        .and_then(|part| scene.parts()[part.0 as usize].light);
+    add_emission(
+        scene,
+        light,
+        front,
+        sign * std::f64::consts::PI * placed.form.area(),
+        columns,
+    );
+}
+
+fn add_emission(
+    scene: &Scene,
+    light: Option<crate::light::LightId>,
+    front: bool,
+    factor: f64,
+    columns: &mut [f64],
+) {
+    let lanes = scene.lanes().count();
+    let Some(light) = light.map(|id| &scene.lights()[id.0 as usize]) else {
+        return;
+    };
+    if let Kind::Area(area) = &light.kind
+        && (front || area.two_sided)
+    {
+        let column = &mut columns[light.group as usize * lanes..][..lanes];
+        let radiance = area
+            .radiance
+            .map(|lane| lane.to_watts_per_square_metre_steradian());
+        column
+            .iter_mut()
+            .zip(radiance)
+            .for_each(|(sum, lane)| *sum += factor * lane);
+    }
+}

@@ -1,0 +1,413 @@
+//! Measuring: the streams of all sensors as one integrand.
+
+use std::f32::consts::FRAC_1_PI;
+use std::f64::consts::PI;
+
+use super::MeasureOptions;
+use super::columns::{BATCH, Place, Vertices, Workspace};
+use super::meters::{FluxMeter, Meter, Prepared};
+use super::next_event::NextEvent;
+use super::path::Tracer;
+use super::scatter;
+use super::tables::{Candidates, Model, Tables};
+use crate::estimation::{Integrand, Run, SampleBatch, Tally};
+use crate::sampling::{block, hash, warp};
+use crate::scene::Scene;
+use crate::sensor::FluxOf;
+
+/// Block of the direction in which a meter looks, out of the way of the blocks of a path's segments.
+const DIRECTION_BLOCK: u32 = 1 << 30;
+/// First of the blocks with which a meter samples its lights.
+const LIGHT_BLOCK: u32 = 1 << 29;
+
+/// One stream: a meter of a sensor.
+pub(super) struct Stream<'a> {
+    pub sensor: usize,
+    pub key: u64,
+    pub meter: Meter<'a>,
+    /// The exact part of the scalar that tolerances are about.
+    pub offset: f64,
+}
+
+/// All streams of a run.
+pub(super) struct Meters<'a> {
+    tracer: Tracer<'a>,
+    streams: Vec<Stream<'a>>,
+    weights: Vec<f64>,
+}
+
+/// Paths that start alike.
+#[derive(Copy, Clone, PartialEq, Eq)]
+enum Mode {
+    Hemisphere { delta: bool },
+    Sphere,
+    Surface,
+}
+
+impl Meter<'_> {
+    fn mode(&self) -> Mode {
+        match self {
+            Meter::Irradiance(_) => Mode::Hemisphere { delta: false },
+            Meter::Flux(_) => Mode::Hemisphere { delta: true },
+            Meter::Scalar(_) => Mode::Sphere,
+            Meter::Surface { .. } => Mode::Surface,
+        }
+    }
+
+    /// What a path's gathered light is multiplied with.
+    fn scale(&self) -> f64 {
+        match self {
+            Meter::Irradiance(_) => PI,
+            Meter::Flux(flux) => PI * flux.area,
+            Meter::Scalar(_) => 4.0 * PI,
+            Meter::Surface { .. } => 1.0,
+        }
+    }
+}
+
+/// Scratch of a thread: the paths, and what each gathers is multiplied with.
+#[derive(Default)]
+pub(super) struct MeterWorkspace {
+    paths: Workspace,
+    sign: Vec<f64>,
+    columns: Vec<f64>,
+}
+
+impl<'a> Meters<'a> {
+    pub fn new(
+        tables: &'a Tables<'a>,
+        options: &MeasureOptions,
+        streams: Vec<Stream<'a>>,
+        weights: Vec<f64>,
+    ) -> Self {
+        let tracer = Tracer {
+            tables,
+            set: options.instruction_set,
+            max_depth: options.max_depth.unwrap_or(u32::MAX),
+            merge_groups: false,
+        };
+        Self {
+            tracer,
+            streams,
+            weights,
+        }
+    }
+
+    fn trace(&self, mode: Mode, runs: &[(usize, Run)], workspace: &mut MeterWorkspace) {
+        let tables = self.tracer.tables;
+        workspace.paths.vertices.clear();
+        workspace.paths.mirrors.clear();
+        workspace.paths.viewer.iter_mut().for_each(Vec::clear);
+        for (slot, run) in runs {
+            self.start(*slot, run, workspace);
+        }
+        let paths = &mut workspace.paths;
+        match mode {
+            Mode::Surface => {
+                self.tracer.reflect(paths, 1);
+                self.tracer.follow(paths, 1, tables.for_surfaces());
+            }
+            Mode::Sphere => self.look(paths, tables.for_meters(false), true),
+            Mode::Hemisphere { delta } => self.look(paths, tables.for_meters(delta), false),
+        }
+    }
+
+    /// Samples the lights at meters and sends paths out.
+    fn look(&self, paths: &mut Workspace, candidates: Candidates, spherical: bool) {
+        let next_event = NextEvent {
+            tracer: &self.tracer,
+            candidates,
+            spherical,
+        };
+        if candidates.all {
+            for emitter in 0..candidates.count {
+                scatter::fill(
+                    &self.tracer,
+                    &paths.vertices.identity,
+                    LIGHT_BLOCK + emitter as u32,
+                    &mut paths.uniforms,
+                );
+                next_event.gather_from(paths, emitter);
+            }
+        } else {
+            next_event.gather(paths);
+        }
+        scatter::fill(
+            &self.tracer,
+            &paths.vertices.identity,
+            DIRECTION_BLOCK,
+            &mut paths.uniforms,
+        );
+        leave_meters(paths, spherical);
+        self.tracer.follow(paths, 0, candidates);
+    }
+
+    /// Puts the vertices of a run at its meter.
+    fn start(&self, slot: usize, run: &Run, workspace: &mut MeterWorkspace) {
+        for i in 0..run.count {
+            let identity = ((slot + i as usize) as u32, run.key, run.first + i);
+            let u = block::sample(run.key, run.first + i, 0);
+            let paths = &mut workspace.paths;
+            match &self.streams[run.stream as usize].meter {
+                Meter::Irradiance(place) => {
+                    paths
+                        .vertices
+                        .push(*place, [FRAC_1_PI; 4], identity, [u[2], u[3]])
+                }
+                Meter::Scalar(place) => {
+                    paths
+                        .vertices
+                        .push(*place, [0.25 * FRAC_1_PI; 4], identity, [u[2], u[3]])
+                }
+                Meter::Surface {
+                    place,
+                    side,
+                    viewer,
+                } => self.start_at_surface(paths, (*place, *side, *viewer), identity, [u[2], u[3]]),
+                Meter::Flux(flux) => self.start_on_flux(flux, u, identity, workspace),
+            }
+        }
+    }
+
+    fn start_at_surface(
+        &self,
+        paths: &mut Workspace,
+        (place, side, viewer): (Place, u32, [f32; 3]),
+        identity: (u32, u64, u32),
+        light: [f32; 2],
+    ) {
+        let side = &self.tracer.tables.sides[side as usize];
+        match side.model {
+            Model::Black => {}
+            Model::Lambertian => paths.vertices.push(
+                place,
+                side.reflectance.map(|lane| lane * FRAC_1_PI),
+                identity,
+                light,
+            ),
+            Model::Mirror => {
+                paths.mirrors.push(place, side.reflectance, identity, light);
+                paths
+                    .viewer
+                    .iter_mut()
+                    .zip(viewer)
+                    .for_each(|(column, axis)| column.push(axis));
+            }
+        }
+    }
+
+    fn start_on_flux(
+        &self,
+        flux: &FluxMeter,
+        u: [f32; 4],
+        identity: (u32, u64, u32),
+        workspace: &mut MeterWorkspace,
+    ) {
+        let scene = self.tracer.tables.scene;
+        let Some((point, mut normal, part)) = flux.draw([f64::from(u[0]), f64::from(u[1])]) else {
+            return;
+        };
+        let mut front = flux.front;
+        let mut weights = [1.0_f32; 4];
+        match (flux.of, part) {
+            (FluxOf::Incident, _) => {}
+            (FluxOf::Leaving, None) => front = !front,
+            (FluxOf::Net, None) => {
+                // Both sides alternate: what passes backwards is counted negative.
+                front = hash::mix_64(identity.1 ^ u64::from(identity.2)) & 1 == 0;
+                workspace.sign[identity.0 as usize] = if front { 2.0 } else { -2.0 };
+            }
+            (of, Some(part)) => {
+                let side = &self.tracer.tables.sides[2 * part as usize + usize::from(!front)];
+                let reflectance = if side.model == Model::Black {
+                    [0.0; 4]
+                } else {
+                    side.reflectance
+                };
+                weights = if of == FluxOf::Leaving {
+                    reflectance
+                } else {
+                    reflectance.map(|lane| 1.0 - lane)
+                };
+            }
+            (FluxOf::Absorbed, None) => {}
+        }
+        if !front {
+            normal = -normal;
+        }
+        let place = Place {
+            point: scene.surfaces().to_kernel(point),
+            normal: normal.to_array().map(|x| x as f32),
+            clearance: scene.surfaces().clearance() as f32,
+        };
+        workspace.paths.vertices.push(
+            place,
+            weights.map(|weight| weight * FRAC_1_PI),
+            identity,
+            [u[2], u[3]],
+        );
+    }
+
+    fn tally(&self, batch: &SampleBatch, workspace: &mut MeterWorkspace, tally: &mut Tally) {
+        let columns = self.weights.len();
+        let mut slot = 0;
+        for (number, run) in batch.runs.iter().enumerate() {
+            let scale = self.streams[run.stream as usize].meter.scale();
+            for _ in 0..run.count {
+                let factor = scale * workspace.sign[slot];
+                for column in 0..columns {
+                    workspace.columns[column] =
+                        f64::from(workspace.paths.gathered[column * BATCH + slot]) * factor;
+                }
+                tally.sample(number, &workspace.columns);
+                slot += 1;
+            }
+        }
+    }
+}
+
+impl Integrand for Meters<'_> {
+    type Workspace = MeterWorkspace;
+
+    fn streams(&self) -> usize {
+        self.streams.len()
+    }
+
+    fn columns(&self) -> usize {
+        self.weights.len()
+    }
+
+    fn sensor_of(&self, stream: usize) -> usize {
+        self.streams[stream].sensor
+    }
+
+    fn stream_key(&self, stream: usize) -> u64 {
+        self.streams[stream].key
+    }
+
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn offset(&self, stream: usize) -> f64 {
+        self.streams[stream].offset
+    }
+
+    fn new_workspace(&self) -> MeterWorkspace {
+        MeterWorkspace {
+            columns: vec![0.0; self.weights.len()],
+            ..MeterWorkspace::default()
+        }
+    }
+
+    fn sample(&self, batch: &SampleBatch, workspace: &mut MeterWorkspace, tally: &mut Tally) {
+        let count = batch.count();
+        self.tracer.begin(&mut workspace.paths, count);
+        workspace.sign.clear();
+        workspace.sign.resize(count, 1.0);
+        let mode = |run: &Run| self.streams[run.stream as usize].meter.mode();
+        let mut slot = 0;
+        let mut alike: Vec<(usize, Run)> = Vec::new();
+        for run in batch.runs {
+            if let Some((_, first)) = alike.first()
+                && mode(first) != mode(run)
+            {
+                self.trace(mode(first), &alike, workspace);
+                alike.clear();
+            }
+            alike.push((slot, *run));
+            slot += run.count as usize;
+        }
+        if let Some((_, first)) = alike.first() {
+            self.trace(mode(first), &alike, workspace);
+        }
+        self.tally(batch, workspace, tally);
+    }
+}
+
+/// Sends a path out of every meter: cosθ/π about its normal, or uniformly over the sphere.
+fn leave_meters(paths: &mut Workspace, spherical: bool) {
+    let (vertices, flights): (&Vertices, _) = (&paths.vertices, &mut paths.flights);
+    flights.clear();
+    let per_response = if spherical {
+        4.0 * std::f32::consts::PI
+    } else {
+        std::f32::consts::PI
+    };
+    for i in 0..vertices.len() {
+        let place = vertices.place(i);
+        let u = [paths.uniforms[0][i], paths.uniforms[1][i]];
+        let (direction, pdf) = if spherical {
+            (warp::sphere(u[0], u[1]), 0.25 * FRAC_1_PI)
+        } else {
+            let local = warp::cosine_hemisphere(u[0], u[1]);
+            (scatter::to_world(place.normal, local), local[2] * FRAC_1_PI)
+        };
+        let throughput = std::array::from_fn(|lane| vertices.response[lane][i] * per_response);
+        scatter::leave(
+            flights,
+            place,
+            direction,
+            throughput,
+            pdf,
+            &vertices.identity,
+            i,
+        );
+        flights.light_u.push(paths.uniforms[2][i]);
+        flights.light_v.push(paths.uniforms[3][i]);
+    }
+}
+
+impl FluxMeter<'_> {
+    /// A point by area with the normal of the front and the part there; `None` in an opening.
+    fn draw(
+        &self,
+        u: [f64; 2],
+    ) -> Option<(
+        crate::geometry::Point,
+        crate::geometry::Direction,
+        Option<u32>,
+    )> {
+        let index = self
+            .forms
+            .partition_point(|(_, _, share)| *share <= u[0])
+            .min(self.forms.len() - 1);
+        let before = if index == 0 {
+            0.0
+        } else {
+            self.forms[index - 1].2
+        };
+        let (form, parts, share) = &self.forms[index];
+        let within = ((u[0] - before) / (share - before)).clamp(0.0, 1.0 - f64::EPSILON);
+        let sample = form.sample_area([within, u[1]])?;
+        let part = parts.map(|parts| parts[if parts.len() > 1 { sample.face } else { 0 }].0);
+        Some((sample.point, sample.normal, part))
+    }
+}
+
+/// The streams of a run and where each belongs.
+pub(super) fn streams<'a>(
+    scene: &Scene,
+    prepared: &mut [(usize, Vec<Prepared<'a>>)],
+    weights: &[f64],
+) -> Vec<Stream<'a>> {
+    let mut streams = Vec::new();
+    for (position, (sensor, readings)) in prepared.iter_mut().enumerate() {
+        let name = hash::key_of_name(&scene.sensors()[*sensor].name);
+        for reading in readings {
+            let Some(meter) = reading.meter.take() else {
+                continue;
+            };
+            let offset = weights.iter().zip(&reading.exact).map(|(w, x)| w * x).sum();
+            let key = hash::combine(name, reading.index as u64);
+            reading.stream = Some(streams.len());
+            streams.push(Stream {
+                sensor: position,
+                key,
+                meter,
+                offset,
+            });
+        }
+    }
+    streams
+}

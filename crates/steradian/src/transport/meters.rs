@@ -1,0 +1,264 @@
+//! Meters: what each reading of a run samples, and the part of it that is known exactly.
+//!
+//! | stream | start of its paths | scale of what they gather |
+//! |---|---|---|
+//! | irradiance | cosθ/π about the normal | π |
+//! | scalar irradiance | uniform over the sphere | 4π |
+//! | flux | uniform over the surface, then cosθ/π | πA |
+//! | radiance | the surface that the ray meets | 1 |
+//!
+//! A point sees lights without extent exactly: E = Σ I cosθ/r² · V in f64, with no sampling error. A ray sees the
+//! emission of the surface it meets exactly. What surfaces reflect is sampled.
+
+use steradian_kernel::{HitBatch, MISS, RayBatch};
+
+use super::columns::Place;
+use super::exact;
+use super::interaction::hit;
+use super::tables::{Model, Tables};
+use crate::geometry::{Direction, Point};
+use crate::scene::Scene;
+use crate::sensor::{FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
+use crate::shape::Form;
+
+/// What one stream samples.
+pub(super) enum Meter<'a> {
+    /// A point that takes light from the hemisphere of its normal.
+    Irradiance(Place),
+    /// A point that takes light from everywhere.
+    Scalar(Place),
+    /// The reflecting surface that a ray meets.
+    Surface {
+        place: Place,
+        side: u32,
+        viewer: [f32; 3],
+    },
+    /// A surface.
+    Flux(FluxMeter<'a>),
+}
+
+/// A surface whose flux is sampled.
+pub(super) struct FluxMeter<'a> {
+    /// Forms with the cumulative share of their sampling area.
+    pub forms: Vec<(&'a Form, Option<&'a [crate::shape::PartId]>, f64)>,
+    /// Sum of their sampling areas.
+    pub area: f64,
+    /// The front is counted.
+    pub front: bool,
+    pub of: FluxOf,
+}
+
+/// A reading before sampling.
+pub(super) struct Prepared<'a> {
+    pub index: usize,
+    pub position: Option<Point>,
+    pub normal: Option<Direction>,
+    pub sits_on: Option<SitsOn>,
+    /// The exact part of each column.
+    pub exact: Vec<f64>,
+    /// What is left to sample.
+    pub meter: Option<Meter<'a>>,
+    /// The stream that samples it.
+    pub stream: Option<usize>,
+}
+
+/// Prepares all readings of a sensor.
+pub(super) fn prepare<'a>(
+    tables: &Tables<'a>,
+    sensor: &'a Sensor,
+    max_depth: u32,
+) -> Vec<Prepared<'a>> {
+    let context = Context {
+        tables,
+        scene: tables.scene,
+        max_depth,
+    };
+    match &sensor.kind {
+        Kind::Irradiance(receivers) => receivers
+            .iter()
+            .enumerate()
+            .map(|(i, receiver)| context.irradiance(i, receiver))
+            .collect(),
+        Kind::ScalarIrradiance(points) => points
+            .iter()
+            .enumerate()
+            .map(|(i, point)| context.scalar(i, *point))
+            .collect(),
+        Kind::Radiance(rays) => context.radiance(rays),
+        Kind::Flux { surface, of, .. } => vec![context.flux(surface, *of)],
+        Kind::Camera(_) => vec![],
+    }
+}
+
+struct Context<'t, 'a> {
+    tables: &'t Tables<'a>,
+    scene: &'a Scene,
+    max_depth: u32,
+}
+
+impl<'a> Context<'_, 'a> {
+    fn columns(&self) -> usize {
+        self.scene.columns()
+    }
+
+    /// Whether a point can receive anything that must be sampled.
+    fn samples_points(&self) -> bool {
+        let direct = self.tables.extended > 0
+            || !self.tables.environment.is_empty()
+            || self.tables.emits_unsampled;
+        (self.max_depth >= 1 && direct) || (self.max_depth >= 2 && self.tables.reflects)
+    }
+
+    /// Whether a receiver can: not if nothing shines from everywhere and no surface reaches above its plane.
+    fn samples_receiver(&self, receiver: &Receiver) -> bool {
+        let surfaces = self.scene.surfaces();
+        let clearance = receiver.clearance.max(surfaces.clearance());
+        self.samples_points()
+            && !(self.tables.environment.is_empty()
+                && surfaces.nothing_above(receiver.position, receiver.normal, clearance))
+    }
+
+    fn irradiance(&self, index: usize, receiver: &Receiver) -> Prepared<'a> {
+        let place = Place {
+            point: self.scene.surfaces().to_kernel(receiver.position),
+            normal: receiver.normal.to_array().map(|x| x as f32),
+            clearance: receiver.clearance as f32,
+        };
+        Prepared {
+            index,
+            position: Some(receiver.position),
+            normal: Some(receiver.normal),
+            sits_on: receiver.sits_on.clone(),
+            exact: exact::irradiance(
+                self.scene,
+                receiver.position,
+                Some(receiver.normal),
+                receiver.clearance,
+            ),
+            meter: self
+                .samples_receiver(receiver)
+                .then_some(Meter::Irradiance(place)),
+            stream: None,
+        }
+    }
+
+    fn scalar(&self, index: usize, point: Point) -> Prepared<'a> {
+        let place = Place {
+            point: self.scene.surfaces().to_kernel(point),
+            normal: [0.0, 0.0, 1.0],
+            clearance: 0.0,
+        };
+        Prepared {
+            index,
+            position: Some(point),
+            normal: None,
+            sits_on: None,
+            exact: exact::irradiance(self.scene, point, None, 0.0),
+            meter: self.samples_points().then_some(Meter::Scalar(place)),
+            stream: None,
+        }
+    }
+
+    fn radiance(&self, rays: &[(Point, Direction)]) -> Vec<Prepared<'a>> {
+        let surfaces = self.scene.surfaces();
+        let (mut batch, mut hits) = (RayBatch::default(), HitBatch::default());
+        for (origin, direction) in rays {
+            batch.push(
+                surfaces.to_kernel(*origin),
+                direction.to_array().map(|x| x as f32),
+                f32::INFINITY,
+            );
+        }
+        surfaces.closest(
+            &batch,
+            &mut hits,
+            steradian_kernel::InstructionSet::detect(),
+        );
+        let ray = |(index, (origin, direction)): (usize, &(Point, Direction))| {
+            let mut exact = vec![0.0; self.columns()];
+            let meter = self.first_surface(&batch, &hits, index, &mut exact);
+            Prepared {
+                index,
+                position: Some(*origin),
+                normal: Some(*direction),
+                sits_on: None,
+                exact,
+                meter,
+                stream: None,
+            }
+        };
+        rays.iter().enumerate().map(ray).collect()
+    }
+
+    fn first_surface(
+        &self,
+        rays: &RayBatch,
+        hits: &HitBatch,
+        index: usize,
+        exact: &mut [f64],
+    ) -> Option<Meter<'a>> {
+        let lanes = self.tables.lanes;
+        if hits.primitive[index] == MISS {
+            for (group, radiance) in self.scene.environment() {
+                let columns = &mut exact[group as usize * lanes..][..lanes];
+                columns
+                    .iter_mut()
+                    .zip(radiance)
+                    .for_each(|(sum, lane)| *sum += lane);
+            }
+            return None;
+        }
+        let hit = hit(self.tables, rays, hits, index);
+        exact::emission(self.scene, hit.side, exact);
+        let reflects =
+            self.tables.sides[hit.side as usize].model != Model::Black && self.max_depth >= 2;
+        reflects.then_some(Meter::Surface {
+            place: hit.place,
+            side: hit.side,
+            viewer: hit.viewer,
+        })
+    }
+
+    fn flux(&self, surface: &'a FluxSurface, of: FluxOf) -> Prepared<'a> {
+        let mut exact = vec![0.0; self.columns()];
+        let mut forms = Vec::new();
+        let mut area = 0.0;
+        let mut add = |form: &'a Form, parts| {
+            area += form.sampling_area();
+            forms.push((form, parts, area));
+        };
+        let front = match surface {
+            FluxSurface::Virtual(form) => {
+                add(form, None);
+                true
+            }
+            FluxSurface::Shapes { shapes, front } => {
+                for id in shapes {
+                    let placed = self.scene.surfaces().shape(*id);
+                    add(&placed.form, Some(&placed.parts[..]));
+                    exact::emitted_flux(self.scene, placed, *front, of, &mut exact);
+                }
+                *front
+            }
+        };
+        let forms = forms
+            .into_iter()
+            .map(|(form, parts, sum)| (form, parts, sum / area))
+            .collect();
+        let meter = (self.max_depth >= 1).then_some(Meter::Flux(FluxMeter {
+            forms,
+            area,
+            front,
+            of,
+        }));
+        Prepared {
+            index: 0,
+            position: None,
+            normal: None,
+            sits_on: None,
+            exact,
+            meter,
+            stream: None,
+        }
+    }
+}

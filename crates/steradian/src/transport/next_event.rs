@@ -1,0 +1,399 @@
+//! Next-event estimation: light sampled directly, from surfaces and from meters alike.
+//!
+//! A vertex that responds with R per unit of irradiance gains R·E_n·cosθ·V, with E_n = I/r² of a light without extent and
+//! L/p of an area light sampled with density p in solid angle. A point drawn by area has p = r²/(A cosθ_l); a sphere
+//! seen from outside is drawn uniformly in its cone, p = 1/(2π(1 − cosθ_max)).
+//!
+//! An area light's sample carries the power-heuristic weight against the vertex's own density cosθ/π (1/4π for a
+//! meter of scalar irradiance), which bounds it: see [`path`](super::path).
+
+use std::f32::consts::{FRAC_1_PI, PI, TAU};
+
+use glam::Vec3;
+
+use super::columns::{Place, Workspace};
+use super::interaction::Hit;
+use super::path::Tracer;
+use super::tables::{Candidates, Emitter, EmitterShape, Tables};
+use crate::sampling::{sincos, warp};
+
+/// One pass over the vertices of a batch.
+pub(super) struct NextEvent<'a> {
+    pub tracer: &'a Tracer<'a>,
+    /// The emitters to sample.
+    pub candidates: Candidates,
+    /// The receiver takes light from the whole sphere, not foreshortened.
+    pub spherical: bool,
+}
+
+/// A sampled direction towards an emitter.
+struct Towards {
+    /// Unit vector from the vertex.
+    direction: Vec3,
+    /// Where the shadow ray ends; the direction itself for light from infinitely far away.
+    end: Vec3,
+    infinite: bool,
+    /// E_n per unit of the emitter's power.
+    per_power: f32,
+    /// Density in solid angle; infinite for a light without extent.
+    density: f32,
+}
+
+impl NextEvent<'_> {
+    /// Samples one emitter at every vertex, with the light numbers that the vertices carry.
+    pub fn gather(&self, workspace: &mut Workspace) {
+        let tables = self.tracer.tables;
+        if self.candidates.count == 0 || workspace.vertices.len() == 0 {
+            return;
+        }
+        workspace.shadows.clear();
+        for i in 0..workspace.vertices.len() {
+            let (emitter, u) = choose(tables, self.candidates, workspace.vertices.light_u[i]);
+            self.sample(workspace, i, emitter, [u, workspace.vertices.light_v[i]]);
+        }
+        self.settle(workspace);
+    }
+
+    /// Samples one given emitter at every vertex, with two columns of numbers.
+    pub fn gather_from(&self, workspace: &mut Workspace, emitter: usize) {
+        workspace.shadows.clear();
+        for i in 0..workspace.vertices.len() {
+            let u = [workspace.uniforms[2][i], workspace.uniforms[3][i]];
+            self.sample(workspace, i, emitter, u);
+        }
+        self.settle(workspace);
+    }
+
+    fn sample(&self, workspace: &mut Workspace, i: usize, number: usize, u: [f32; 2]) {
+        let emitter = &self.tracer.tables.emitters[number];
+        let place = workspace.vertices.place(i);
+        let Some(towards) = towards(self.tracer.tables, emitter, &place, u) else {
+            return;
+        };
+        let cos_theta = towards.direction.dot(Vec3::from_array(place.normal));
+        let (foreshortening, own_density) = if self.spherical {
+            (1.0, 0.25 * FRAC_1_PI)
+        } else {
+            (cos_theta, cos_theta * FRAC_1_PI)
+        };
+        if foreshortening <= 0.0 {
+            return;
+        }
+        let probability = self.tracer.tables.probability(self.candidates, number);
+        let ratio = own_density / (towards.density * probability);
+        let gain = foreshortening * towards.per_power / (probability * (1.0 + ratio * ratio));
+        self.push(workspace, i, emitter, &place, &towards, gain);
+    }
+
+    fn push(
+        &self,
+        workspace: &mut Workspace,
+        i: usize,
+        emitter: &Emitter,
+        place: &Place,
+        towards: &Towards,
+        gain: f32,
+    ) {
+        let (shadows, vertices) = (&mut workspace.shadows, &workspace.vertices);
+        let start = Vec3::from_array(if self.spherical {
+            place.point
+        } else {
+            place.cleared()
+        });
+        let (span, reach) = if towards.infinite {
+            (towards.direction, f32::INFINITY)
+        } else {
+            (towards.end - start, 1.0)
+        };
+        shadows.rays.push(start.into(), span.into(), reach);
+        shadows.slot.push(vertices.identity.slot[i]);
+        shadows.group.push(emitter.group);
+        for lane in 0..4 {
+            shadows.gain[lane].push(vertices.response[lane][i] * emitter.power[lane] * gain);
+        }
+    }
+
+    /// Traces the shadow rays and adds what arrives.
+    fn settle(&self, workspace: &mut Workspace) {
+        let shadows = &mut workspace.shadows;
+        self.tracer.tables.scene.surfaces().occluded(
+            &shadows.rays,
+            &mut shadows.occluded,
+            self.tracer.set,
+        );
+        for (i, occluded) in shadows.occluded.iter().enumerate() {
+            if !occluded {
+                let gain = &shadows.gain;
+                self.tracer.add(
+                    &mut workspace.gathered,
+                    shadows.group[i],
+                    shadows.slot[i],
+                    |lane| gain[lane][i],
+                );
+            }
+        }
+    }
+
+    /// Density with which a hit on an emitter would have been sampled from the ray's origin.
+    pub fn density(tables: &Tables, emitter: u32, hit: &Hit, candidates: Candidates) -> f32 {
+        let probability = tables.probability(candidates, emitter as usize);
+        let emitter = &tables.emitters[emitter as usize];
+        let by_area = |area: f32| hit.distance_squared / (area * hit.cos_theta);
+        probability
+            * match &emitter.shape {
+                EmitterShape::Parallelogram { area, .. }
+                | EmitterShape::Triangles { area, .. }
+                | EmitterShape::Disc { area, .. } => by_area(*area),
+                EmitterShape::Sphere {
+                    center,
+                    radius,
+                    ports,
+                    ..
+                } => {
+                    let axis = Vec3::from_array(*center) - Vec3::from_array(hit.origin);
+                    match cone(axis, *radius, ports.is_empty()) {
+                        Some(one_minus_cos) => 1.0 / (TAU * one_minus_cos),
+                        None => by_area(4.0 * PI * radius * radius),
+                    }
+                }
+                EmitterShape::Point { .. }
+                | EmitterShape::Spot { .. }
+                | EmitterShape::Directional { .. } => 0.0,
+            }
+    }
+}
+
+/// An emitter by power, and the number that is left to use.
+fn choose(tables: &Tables, candidates: Candidates, u: f32) -> (usize, f32) {
+    let count = candidates.count;
+    if count == 1 {
+        return (0, u);
+    }
+    let u = u * tables.cumulative[count - 1];
+    let index = tables
+        .cumulative
+        .partition_point(|sum| *sum <= u)
+        .min(count - 1);
+    let before = if index == 0 {
+        0.0
+    } else {
+        tables.cumulative[index - 1]
+    };
+    let rest = (u - before) / tables.emitters[index].probability;
+    (index, rest.clamp(0.0, 1.0 - 0.5 * f32::EPSILON))
+}
+
+/// 1 − cosθ_max of a sphere's cone; `None` from inside and for a sphere with ports.
+fn cone(axis: Vec3, radius: f32, whole: bool) -> Option<f32> {
+    let sin2 = radius * radius / axis.length_squared();
+    (whole && sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
+}
+
+fn towards(tables: &Tables, emitter: &Emitter, place: &Place, u: [f32; 2]) -> Option<Towards> {
+    let vertex = Vec3::from_array(place.point);
+    match &emitter.shape {
+        EmitterShape::Parallelogram {
+            origin,
+            edges,
+            normal,
+            area,
+        } => {
+            let [a, b] = edges.map(Vec3::from_array);
+            let point = Vec3::from_array(*origin) + a * u[0] + b * u[1];
+            by_area(
+                vertex,
+                point,
+                Vec3::from_array(*normal),
+                *area,
+                emitter.two_sided,
+            )
+        }
+        EmitterShape::Triangles {
+            first,
+            cumulative,
+            area,
+        } => {
+            let (point, normal) = triangle_point(tables, *first, cumulative, u)?;
+            by_area(vertex, point, normal, *area, emitter.two_sided)
+        }
+        EmitterShape::Disc {
+            center,
+            normal,
+            axes,
+            inner,
+            outer,
+            area,
+        } => {
+            let radius = (inner * inner + (outer * outer - inner * inner) * u[0]).sqrt();
+            let (sin, cos) = sincos::sin_cos_two_pi(u[1]);
+            let [a, b] = axes.map(Vec3::from_array);
+            let point = Vec3::from_array(*center) + a * (radius * cos) + b * (radius * sin);
+            by_area(
+                vertex,
+                point,
+                Vec3::from_array(*normal),
+                *area,
+                emitter.two_sided,
+            )
+        }
+        EmitterShape::Sphere { .. } => towards_sphere(emitter, vertex, u),
+        EmitterShape::Point { position } => {
+            towards_point(vertex, Vec3::from_array(*position), |_| 1.0)
+        }
+        EmitterShape::Spot {
+            position,
+            axis,
+            beam,
+        } => {
+            let axis = Vec3::from_array(*axis);
+            towards_point(vertex, Vec3::from_array(*position), |direction| {
+                beam.falloff(f64::from(-direction.dot(axis))) as f32
+            })
+        }
+        EmitterShape::Directional { towards } => {
+            let direction = Vec3::from_array(*towards);
+            Some(Towards {
+                direction,
+                end: direction,
+                infinite: true,
+                per_power: 1.0,
+                density: f32::INFINITY,
+            })
+        }
+    }
+}
+
+fn towards_point(vertex: Vec3, position: Vec3, falloff: impl Fn(Vec3) -> f32) -> Option<Towards> {
+    let span = position - vertex;
+    let squared = span.length_squared();
+    let direction = span / squared.sqrt();
+    let per_power = falloff(direction) / squared;
+    (per_power > 0.0 && per_power.is_finite()).then_some(Towards {
+        direction,
+        end: position,
+        infinite: false,
+        per_power,
+        density: f32::INFINITY,
+    })
+}
+
+fn by_area(vertex: Vec3, point: Vec3, normal: Vec3, area: f32, two_sided: bool) -> Option<Towards> {
+    let span = point - vertex;
+    let squared = span.length_squared();
+    let direction = span / squared.sqrt();
+    let cos_light = -direction.dot(normal);
+    let facing = if cos_light < 0.0 { -normal } else { normal };
+    let seen = if two_sided {
+        cos_light.abs()
+    } else {
+        cos_light
+    };
+    let density = squared / (area * seen);
+    let usable = seen > 0.0 && density > 0.0 && density.is_finite();
+    let end = point + facing * clearance(point, area.sqrt());
+    usable.then_some(Towards {
+        direction,
+        end,
+        infinite: false,
+        per_power: 1.0 / density,
+        density,
+    })
+}
+
+/// How far off its surface a sampled point must be moved to clear it: γ(8) of its coordinates and the shape's size.
+fn clearance(point: Vec3, size: f32) -> f32 {
+    (point.abs().element_sum() + size) * (8.0 * 0.5 * f32::EPSILON) * 2.0
+}
+
+fn triangle_point(
+    tables: &Tables,
+    first: u32,
+    cumulative: &[f32],
+    u: [f32; 2],
+) -> Option<(Vec3, Vec3)> {
+    let index = cumulative
+        .partition_point(|share| *share <= u[0])
+        .min(cumulative.len().checked_sub(1)?);
+    let before = if index == 0 {
+        0.0
+    } else {
+        cumulative[index - 1]
+    };
+    let within = ((u[0] - before) / (cumulative[index] - before)).clamp(0.0, 1.0);
+    let record = &tables.scene.surfaces().triangles()[first as usize + index];
+    let [a, b] = record.edges.map(Vec3::from_array);
+    let root = within.sqrt();
+    let point = Vec3::from_array(record.origin) + a * (1.0 - root) + b * (u[1] * root);
+    Some((point, Vec3::from_array(record.normal)))
+}
+
+fn towards_sphere(emitter: &Emitter, vertex: Vec3, u: [f32; 2]) -> Option<Towards> {
+    let EmitterShape::Sphere {
+        center,
+        radius,
+        inside,
+        ports,
+    } = &emitter.shape
+    else {
+        return None;
+    };
+    let (center, radius) = (Vec3::from_array(*center), *radius);
+    let axis = center - vertex;
+    match cone(axis, radius, ports.is_empty()) {
+        Some(_) if *inside && !emitter.two_sided => None,
+        Some(one_minus_cos_max) => {
+            Some(in_cone(axis, center, radius, one_minus_cos_max, vertex, u))
+        }
+        None => {
+            let outwards = Vec3::from_array(warp::sphere(u[0], u[1]));
+            let open = ports
+                .iter()
+                .any(|(direction, cos)| outwards.dot(Vec3::from_array(*direction)) > *cos);
+            let normal = if *inside { -outwards } else { outwards };
+            let area = 4.0 * PI * radius * radius;
+            if open {
+                None
+            } else {
+                by_area(
+                    vertex,
+                    center + outwards * radius,
+                    normal,
+                    area,
+                    emitter.two_sided,
+                )
+            }
+        }
+    }
+}
+
+fn in_cone(
+    axis: Vec3,
+    center: Vec3,
+    radius: f32,
+    one_minus_cos_max: f32,
+    vertex: Vec3,
+    u: [f32; 2],
+) -> Towards {
+    let one_minus_cos = u[0] * one_minus_cos_max;
+    let sin2 = one_minus_cos * (2.0 - one_minus_cos);
+    let (sin_phi, cos_phi) = sincos::sin_cos_two_pi(u[1]);
+    let (sin, cos) = (sin2.sqrt(), 1.0 - one_minus_cos);
+    let distance = axis.length();
+    let local = [sin * cos_phi, sin * sin_phi, cos];
+    let direction = Vec3::from_array(super::scatter::to_world((axis / distance).into(), local));
+    let reach = distance * cos
+        - (radius * radius - distance * distance * sin2)
+            .max(0.0)
+            .sqrt();
+    let outwards = (vertex + direction * reach - center).normalize();
+    let point = center + outwards * radius;
+    let end = point + outwards * clearance(point.abs() + center.abs(), radius);
+    let density = 1.0 / (TAU * one_minus_cos_max);
+    Towards {
+        direction,
+        end,
+        infinite: false,
+        per_power: 1.0 / density,
+        density,
+    }
+}

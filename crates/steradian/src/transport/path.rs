@@ -1,0 +1,189 @@
+//! The path estimator: the reflection integral applied again and again, for a batch of paths at a time.
+//!
+//! L(d_e) = L_emitted + ∫ ρ(d_e, d_i) L(p, −d_i) cosθ_i dω_i. At every surface the integral is estimated twice: by a
+//! sample of the lights (next-event estimation) and by following one sampled direction, which may meet a light by
+//! itself. Both estimates of the same light are combined by the power heuristic
+//!
+//! w_a = p_a² / (p_a² + p_b²)
+//!
+//! whose weighted contribution ρ·L·cosθ·w_a/p_a never exceeds ρ·L·cosθ/(2 p_b): the sample of a light is bounded by the
+//! density of the surface's own sampling, and the other way round, so no weight is unbounded near a light.
+//!
+//! A path ends by roulette with survival probability q = min(1, greatest lane of its throughput), never capped below
+//! 1, so that the throughput of a survivor never exceeds 1; without roulette only `max_depth` ends it.
+//!
+//! Sources: J. Kajiya, *The rendering equation* (SIGGRAPH 1986); E. Veach, *Robust Monte Carlo methods for light
+//! transport simulation* (1997), eq. 9.13 (power heuristic) and §10.4.1 (roulette).
+
+use steradian_kernel::{InstructionSet, MISS};
+
+use super::columns::{BATCH, Flights, Place, Vertices, Workspace};
+use super::interaction::{Hit, hit};
+use super::next_event::NextEvent;
+use super::scatter;
+use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, Side, Tables};
+
+/// Traces batches of paths through a scene.
+pub(super) struct Tracer<'a> {
+    pub tables: &'a Tables<'a>,
+    pub set: InstructionSet,
+    /// Longest path in segments.
+    pub max_depth: u32,
+    /// All groups gather in the first columns (pictures).
+    pub merge_groups: bool,
+}
+
+impl Tracer<'_> {
+    /// Number of gathered columns.
+    pub fn columns(&self) -> usize {
+        let groups = if self.merge_groups {
+            1
+        } else {
+            self.tables.scene.groups().len()
+        };
+        groups * self.tables.lanes
+    }
+
+    /// Empties what `slots` paths gathered.
+    pub fn begin(&self, workspace: &mut Workspace, slots: usize) {
+        debug_assert!(slots <= BATCH);
+        workspace.gathered.clear();
+        workspace.gathered.resize(self.columns() * BATCH, 0.0);
+        workspace.flights.clear();
+        workspace.vertices.clear();
+        workspace.mirrors.clear();
+    }
+
+    /// Follows the flights until every path has ended.
+    ///
+    /// `segments` have been travelled before; `candidates` are the emitters that were sampled where the flights begin.
+    pub fn follow(&self, workspace: &mut Workspace, segments: u32, mut candidates: Candidates) {
+        for segment in segments.saturating_add(1)..=self.max_depth {
+            if workspace.flights.len() == 0 {
+                return;
+            }
+            self.tables.scene.surfaces().closest(
+                &workspace.flights.rays,
+                &mut workspace.hits,
+                self.set,
+            );
+            self.arrive(workspace, candidates);
+            if segment == self.max_depth {
+                return;
+            }
+            self.reflect(workspace, segment);
+            candidates = self.tables.for_surfaces();
+        }
+    }
+
+    /// Samples the lights at the vertices and sends the paths on; `segment` is the number of segments so far.
+    pub fn reflect(&self, workspace: &mut Workspace, segment: u32) {
+        let candidates = self.tables.for_surfaces();
+        NextEvent {
+            tracer: self,
+            candidates,
+            spherical: false,
+        }
+        .gather(workspace);
+        workspace.flights.clear();
+        scatter::reflect(self, workspace, segment);
+    }
+
+    /// Adds emission found at the hits and collects the vertices that reflect.
+    fn arrive(&self, workspace: &mut Workspace, candidates: Candidates) {
+        workspace.vertices.clear();
+        workspace.mirrors.clear();
+        workspace.viewer.iter_mut().for_each(Vec::clear);
+        for i in 0..workspace.flights.len() {
+            if workspace.hits.primitive[i] == MISS {
+                self.escape(&workspace.flights, i, &mut workspace.gathered);
+                continue;
+            }
+            let hit = hit(self.tables, &workspace.flights.rays, &workspace.hits, i);
+            let side = &self.tables.sides[hit.side as usize];
+            if side.emits {
+                let weight = self.emission_weight(side, &hit, workspace.flights.pdf[i], candidates);
+                self.add(
+                    &mut workspace.gathered,
+                    side.group,
+                    workspace.flights.identity.slot[i],
+                    |lane| workspace.flights.throughput[lane][i] * side.radiance[lane] * weight,
+                );
+            }
+            match side.model {
+                Model::Black => {}
+                Model::Lambertian => push(
+                    &mut workspace.vertices,
+                    &workspace.flights,
+                    i,
+                    hit.place,
+                    &side.reflectance,
+                    std::f32::consts::FRAC_1_PI,
+                ),
+                Model::Mirror => {
+                    push(
+                        &mut workspace.mirrors,
+                        &workspace.flights,
+                        i,
+                        hit.place,
+                        &side.reflectance,
+                        1.0,
+                    );
+                    for (column, axis) in workspace.viewer.iter_mut().zip(hit.viewer) {
+                        column.push(axis);
+                    }
+                }
+            }
+        }
+    }
+
+    fn escape(&self, flights: &Flights, i: usize, gathered: &mut [f32]) {
+        for (group, radiance) in &self.tables.environment {
+            self.add(gathered, *group, flights.identity.slot[i], |lane| {
+                flights.throughput[lane][i] * radiance[lane]
+            });
+        }
+    }
+
+    /// Power-heuristic weight of emission that a sampled direction met.
+    fn emission_weight(&self, side: &Side, hit: &Hit, pdf: f32, candidates: Candidates) -> f32 {
+        if side.emitter == NO_EMITTER {
+            return 1.0;
+        }
+        let ratio = NextEvent::density(self.tables, side.emitter, hit, candidates) / pdf;
+        1.0 / (1.0 + ratio * ratio)
+    }
+
+    /// Adds light of a group to a path.
+    #[inline(always)]
+    pub fn add(&self, gathered: &mut [f32], group: u32, slot: u32, value: impl Fn(usize) -> f32) {
+        let group = if self.merge_groups { 0 } else { group as usize };
+        for lane in 0..self.tables.lanes {
+            gathered[(group * self.tables.lanes + lane) * BATCH + slot as usize] += value(lane);
+        }
+    }
+}
+
+#[inline(always)]
+fn push(
+    vertices: &mut Vertices,
+    flights: &Flights,
+    i: usize,
+    place: Place,
+    reflectance: &Lanes4,
+    factor: f32,
+) {
+    let response =
+        std::array::from_fn(|lane| flights.throughput[lane][i] * reflectance[lane] * factor);
+    let identity = (
+        flights.identity.slot[i],
+        flights.identity.key[i],
+        flights.identity.index[i],
+    );
+    vertices.push(
+        place,
+        response,
+        identity,
+        [flights.light_u[i], flights.light_v[i]],
+    );
+}
