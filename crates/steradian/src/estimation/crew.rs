@@ -1,69 +1,88 @@
-//! The threads: workers take batches from the schedule, the caller's thread watches.
+//! The threads: workers take jobs, the caller's thread watches.
 //!
-//! Batches are numbered as they are handed out and merged in that order, whichever worker finishes first.
+//! Jobs are numbered as they are handed out and merged in that order, whichever worker finishes first: results cannot
+//! depend on how many workers there are.
 
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
-use std::thread::ScopedJoinHandle;
 use std::time::{Duration, Instant};
 
-use super::cells::Cells;
-use super::schedule::Schedule;
-use super::{EstimationError, Integrand, Observer, Phase, Progress, Run, SampleBatch, Tally};
+use super::{EstimationError, Observer, Phase, Progress};
 
 const BETWEEN_UPDATES: Duration = Duration::from_millis(100);
 
+/// Does jobs, each on one thread.
+pub(super) trait Worker: Sync {
+    type Job: Send;
+    type Workspace: Send;
+
+    fn new_workspace(&self) -> Self::Workspace;
+
+    fn perform(&self, job: &mut Self::Job, workspace: &mut Self::Workspace);
+}
+
+/// Hands out jobs and takes them back in the same order.
+pub(super) trait Ledger: Send {
+    type Job: Send;
+
+    /// The next job, none when all are out.
+    fn issue(&mut self) -> Option<Self::Job>;
+
+    fn merge(&mut self, job: Self::Job) -> Result<(), EstimationError>;
+
+    /// Whether every job has come back.
+    fn is_complete(&self) -> bool;
+
+    fn standing(&self) -> Standing;
+}
+
+/// The part of a progress that does not need a clock.
+pub(super) struct Standing {
+    pub(super) phase: Phase,
+    /// When the samples that are counted here began.
+    pub(super) begin: Duration,
+    pub(super) samples: u64,
+    pub(super) planned: u64,
+    pub(super) relative_error: Option<f64>,
+}
+
 /// Workers' memory, clock and observer of one estimation.
-pub(super) struct Crew<'a, I: Integrand> {
-    integrand: &'a I,
-    workspaces: Vec<I::Workspace>,
+pub(super) struct Crew<'a, W: Worker> {
+    worker: W,
+    workspaces: Vec<W::Workspace>,
     observer: &'a mut dyn Observer,
     start: Instant,
     limit: Option<Duration>,
     next_update: Duration,
 }
 
-/// What the watcher is told beside the progress of the schedule.
-pub(super) struct Watch<'a> {
-    pub(super) phase: Phase,
-    pub(super) relative_error: &'a dyn Fn(&Cells) -> Option<f64>,
-}
-
-struct Parcel {
-    runs: Vec<Run>,
-    tally: Tally,
-}
-
-struct State<'c> {
-    schedule: Schedule,
-    cells: &'c mut Cells,
+struct State<L: Ledger> {
+    ledger: L,
     issued: u64,
     merged: u64,
-    samples: u64,
-    waiting: BTreeMap<u64, Parcel>,
-    spare: Vec<Parcel>,
+    waiting: BTreeMap<u64, L::Job>,
     working: usize,
     stop: bool,
     fault: Option<EstimationError>,
 }
 
-struct Shared<'c> {
-    state: Mutex<State<'c>>,
+struct Shared<L: Ledger> {
+    state: Mutex<State<L>>,
     changed: Condvar,
 }
 
-impl<'a, I: Integrand> Crew<'a, I> {
+impl<'a, W: Worker> Crew<'a, W> {
     pub(super) fn new(
-        integrand: &'a I,
+        worker: W,
         threads: usize,
         limit: Option<Duration>,
         observer: &'a mut dyn Observer,
     ) -> Self {
-        let workspaces = (0..threads).map(|_| integrand.new_workspace()).collect();
+        let workspaces = (0..threads).map(|_| worker.new_workspace()).collect();
         Self {
-            integrand,
+            worker,
             workspaces,
             observer,
             start: Instant::now(),
@@ -76,77 +95,72 @@ impl<'a, I: Integrand> Crew<'a, I> {
         self.start.elapsed()
     }
 
-    /// Works through the schedule; `Break` if the observer or the clock ended it before.
-    pub(super) fn run(
+    /// Works through the ledger; `Break` if the observer or the clock ended it before.
+    pub(super) fn run<L: Ledger<Job = W::Job>>(
         &mut self,
-        schedule: Schedule,
-        cells: &mut Cells,
-        watch: &Watch<'_>,
+        ledger: L,
     ) -> Result<ControlFlow<()>, EstimationError> {
-        let integrand = self.integrand;
         let mut workspaces = std::mem::take(&mut self.workspaces);
-        let planned = schedule.remaining();
-        let shared = Shared::new(schedule, cells, workspaces.len());
+        let shared = Shared::new(ledger, workspaces.len());
         let panics = std::thread::scope(|scope| {
-            let shared = &shared;
-            let work = |workspace| scope.spawn(move || shared.work(integrand, workspace));
+            let (shared, worker) = (&shared, &self.worker);
+            let work = |workspace| scope.spawn(move || shared.work(worker, workspace));
             let handles: Vec<_> = workspaces.iter_mut().map(work).collect();
-            self.watch(shared, planned, watch);
+            let clock = (self.start, self.limit);
+            watch(shared, clock, self.observer, &mut self.next_update);
             handles
                 .into_iter()
-                .filter_map(|handle: ScopedJoinHandle<'_, ()>| handle.join().err())
+                .filter_map(|handle| handle.join().err())
                 .collect::<Vec<_>>()
         });
         self.workspaces = workspaces;
         shared.finish(panics)
     }
+}
 
-    fn watch(&mut self, shared: &Shared<'_>, planned: u64, watch: &Watch<'_>) {
-        let begin = self.elapsed();
-        let mut state = shared.lock();
-        while state.working > 0 {
-            let now = self.elapsed();
-            if self.limit.is_some_and(|limit| now >= limit) {
-                state.stop = true;
-            }
-            if now >= self.next_update {
-                let progress = progress(&state, planned, begin, now, watch);
-                drop(state);
-                self.next_update = now + BETWEEN_UPDATES;
-                let verdict = self.observer.update(&progress);
-                state = shared.lock();
-                state.stop |= verdict.is_break();
-            }
-            state = shared.wait(state, self.patience());
+/// Looks after the clock and the observer until all workers have left.
+fn watch<L: Ledger>(
+    shared: &Shared<L>,
+    (start, limit): (Instant, Option<Duration>),
+    observer: &mut dyn Observer,
+    next_update: &mut Duration,
+) {
+    let mut state = shared.lock();
+    while state.working > 0 {
+        let now = start.elapsed();
+        state.stop |= limit.is_some_and(|limit| now >= limit);
+        if now >= *next_update {
+            let progress = progress(&state.ledger.standing(), now);
+            drop(state);
+            *next_update = now + BETWEEN_UPDATES;
+            let verdict = observer.update(&progress);
+            state = shared.lock();
+            state.stop |= verdict.is_break();
         }
-    }
-
-    /// Time to the next thing the watcher has to do.
-    fn patience(&self) -> Duration {
-        let next = self
-            .limit
-            .map_or(self.next_update, |limit| limit.min(self.next_update));
-        next.saturating_sub(self.elapsed())
-            .clamp(Duration::from_millis(1), BETWEEN_UPDATES)
+        let next = limit
+            .filter(|limit| *limit > now)
+            .map_or(*next_update, |limit| limit.min(*next_update));
+        let patience = next
+            .saturating_sub(start.elapsed())
+            .max(Duration::from_millis(1));
+        state = shared.wait(state, patience);
     }
 }
 
-fn progress(
-    state: &State<'_>,
-    planned: u64,
-    begin: Duration,
-    now: Duration,
-    watch: &Watch<'_>,
-) -> Progress {
-    let left = (planned - state.samples) as f64;
-    let rate = state.samples as f64 / (now - begin).as_secs_f64();
-    let remaining = (state.samples > 0)
-        .then(|| Duration::try_from_secs_f64(left / rate).ok())
-        .flatten();
-    let relative_error = (watch.relative_error)(state.cells);
+fn progress(standing: &Standing, now: Duration) -> Progress {
+    let &Standing {
+        phase,
+        begin,
+        samples,
+        planned,
+        relative_error,
+    } = standing;
+    let seconds =
+        now.saturating_sub(begin).as_secs_f64() * (planned - samples) as f64 / samples as f64;
+    let remaining = Duration::try_from_secs_f64(seconds).ok();
     Progress {
-        phase: watch.phase,
-        samples: state.samples,
+        phase,
+        samples,
         planned,
         elapsed: now,
         remaining,
@@ -154,16 +168,13 @@ fn progress(
     }
 }
 
-impl<'c> Shared<'c> {
-    fn new(schedule: Schedule, cells: &'c mut Cells, workers: usize) -> Self {
+impl<L: Ledger> Shared<L> {
+    fn new(ledger: L, workers: usize) -> Self {
         let state = State {
-            schedule,
-            cells,
+            ledger,
             issued: 0,
             merged: 0,
-            samples: 0,
             waiting: BTreeMap::new(),
-            spare: Vec::new(),
             working: workers,
             stop: false,
             fault: None,
@@ -174,37 +185,33 @@ impl<'c> Shared<'c> {
         }
     }
 
-    /// A worker that panics leaves the state as it was between two batches, so poisoning tells nothing.
-    fn lock(&self) -> MutexGuard<'_, State<'c>> {
+    /// A worker that panics does so between locks, so poisoning tells nothing.
+    fn lock(&self) -> MutexGuard<'_, State<L>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn wait<'s>(
         &'s self,
-        state: MutexGuard<'s, State<'c>>,
+        state: MutexGuard<'s, State<L>>,
         patience: Duration,
-    ) -> MutexGuard<'s, State<'c>> {
+    ) -> MutexGuard<'s, State<L>> {
         self.changed
             .wait_timeout(state, patience)
             .unwrap_or_else(PoisonError::into_inner)
             .0
     }
 
-    fn work<I: Integrand>(&self, integrand: &I, workspace: &mut I::Workspace) {
+    fn work<W: Worker<Job = L::Job>>(&self, worker: &W, workspace: &mut W::Workspace) {
         let _leaving = Leaving(self);
-        while let Some((number, mut parcel)) = self.issue(integrand) {
-            parcel.tally.reset(parcel.runs.len());
-            integrand.sample(
-                &SampleBatch { runs: &parcel.runs },
-                workspace,
-                &mut parcel.tally,
-            );
-            self.lock().deliver(number, parcel);
+        while let Some((number, mut job)) = self.issue() {
+            worker.perform(&mut job, workspace);
+            self.lock().deliver(number, job);
         }
     }
 
-    fn issue<I: Integrand>(&self, integrand: &I) -> Option<(u64, Parcel)> {
-        self.lock().issue(integrand)
+    /// Holds the lock for the call only, which a `while let` on the guard would not.
+    fn issue(&self) -> Option<(u64, L::Job)> {
+        self.lock().issue()
     }
 
     fn finish(self, panics: Vec<Box<dyn Any + Send>>) -> Result<ControlFlow<()>, EstimationError> {
@@ -217,8 +224,8 @@ impl<'c> Shared<'c> {
         }
         match state.fault {
             Some(fault) => Err(fault),
-            None if state.schedule.remaining() > 0 => Ok(ControlFlow::Break(())),
-            None => Ok(ControlFlow::Continue(())),
+            None if state.ledger.is_complete() => Ok(ControlFlow::Continue(())),
+            None => Ok(ControlFlow::Break(())),
         }
     }
 }
@@ -230,9 +237,9 @@ fn message_of(payload: &(dyn Any + Send)) -> String {
 }
 
 /// Counts a worker out when it leaves, also by a panic, which stops the others.
-struct Leaving<'s, 'c>(&'s Shared<'c>);
+struct Leaving<'s, L: Ledger>(&'s Shared<L>);
 
-impl Drop for Leaving<'_, '_> {
+impl<L: Ledger> Drop for Leaving<'_, L> {
     fn drop(&mut self) {
         let mut state = self.0.lock();
         state.working -= 1;
@@ -241,31 +248,24 @@ impl Drop for Leaving<'_, '_> {
     }
 }
 
-impl State<'_> {
-    fn issue<I: Integrand>(&mut self, integrand: &I) -> Option<(u64, Parcel)> {
+impl<L: Ledger> State<L> {
+    fn issue(&mut self) -> Option<(u64, L::Job)> {
         if self.stop {
             return None;
         }
-        let new = || Parcel {
-            runs: Vec::new(),
-            tally: Tally::new(integrand.weights()),
-        };
-        let mut parcel = self.spare.pop().unwrap_or_else(new);
-        self.schedule.next_batch(&mut parcel.runs);
+        let job = self.ledger.issue()?;
         self.issued += 1;
-        (!parcel.runs.is_empty()).then_some((self.issued - 1, parcel))
+        Some((self.issued - 1, job))
     }
 
-    fn deliver(&mut self, number: u64, parcel: Parcel) {
-        self.waiting.insert(number, parcel);
-        while let Some(parcel) = self.waiting.remove(&self.merged) {
+    fn deliver(&mut self, number: u64, job: L::Job) {
+        self.waiting.insert(number, job);
+        while let Some(job) = self.waiting.remove(&self.merged) {
             self.merged += 1;
-            self.samples += SampleBatch { runs: &parcel.runs }.count() as u64;
-            if let Err(fault) = self.cells.add(&parcel.runs, &parcel.tally) {
+            if let Err(fault) = self.ledger.merge(job) {
                 self.stop = true;
                 self.fault.get_or_insert(fault);
             }
-            self.spare.push(parcel);
         }
     }
 }

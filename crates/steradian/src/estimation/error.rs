@@ -19,6 +19,18 @@ pub enum EstimationError {
         /// How many there are in that replicate so far.
         count: u64,
     },
+    /// The sampler of an image returned infinities or not-a-numbers.
+    #[error(
+        "{count} samples of the image are not finite numbers, the first of them at pixel ({x:.1}, {y:.1})"
+    )]
+    NonFinitePixel {
+        /// Film position of the first one from the left.
+        x: f32,
+        /// Film position of the first one from the top.
+        y: f32,
+        /// How many there are in its tile so far.
+        count: u64,
+    },
     /// A worker thread panicked.
     #[error("a worker thread panicked: {0}")]
     Panicked(String),

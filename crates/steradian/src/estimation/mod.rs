@@ -26,10 +26,12 @@
 //! Sums are folded over runs of samples whose boundaries depend on the sample index alone, in the order of the index; so the
 //! result does not depend on threads, on the packing of batches, on shards, or on whether n was reached in one go.
 
+mod account;
 mod cells;
 mod crew;
 mod error;
 mod estimate;
+pub mod film;
 mod integrand;
 mod plan;
 mod progress;

@@ -14,8 +14,9 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+use super::account::{Account, Sampling, Work};
 use super::cells::{Cells, half_width_factor};
-use super::crew::{Crew, Watch};
+use super::crew::Crew;
 use super::plan::{FLOOR, LONGEST_REPLICATE};
 use super::replicates::share_largest;
 use super::schedule::{Schedule, Task, round_up};
@@ -97,7 +98,7 @@ struct Session<'a, I: Integrand> {
     integrand: &'a I,
     plan: &'a Plan,
     sensors: Sensors,
-    crew: Crew<'a, I>,
+    crew: Crew<'a, Sampling<'a, I>>,
     factor: f64,
 }
 
@@ -138,7 +139,7 @@ struct Decisions {
 impl<'a, I: Integrand> Session<'a, I> {
     fn new(integrand: &'a I, plan: &'a Plan, observer: &'a mut dyn Observer) -> Self {
         let crew = Crew::new(
-            integrand,
+            Sampling(integrand),
             plan.threads,
             plan.stop.time.filter(|_| plan.stop.has_tolerance()),
             observer,
@@ -346,16 +347,15 @@ impl<'a, I: Integrand> Session<'a, I> {
         tasks: Vec<Task>,
         cells: &mut Cells,
     ) -> Result<ControlFlow<()>, EstimationError> {
-        let (sensors, integrand, factor) = (&self.sensors, self.integrand, self.factor);
+        let (integrand, sensors, factor) = (self.integrand, &self.sensors, self.factor);
         let relative_error = |cells: &Cells| relative_error(integrand, sensors, cells, factor);
-        self.crew.run(
-            Schedule::new(tasks),
-            cells,
-            &Watch {
-                phase,
-                relative_error: &relative_error,
-            },
-        )
+        let work = Work {
+            schedule: Schedule::new(tasks),
+            phase,
+            begin: self.crew.elapsed(),
+        };
+        let account = Account::new(work, cells, integrand.weights(), &relative_error);
+        self.crew.run(account)
     }
 
     fn harvest(&self, cells: &Cells, converged: impl Fn(usize) -> bool) -> Vec<Replicates> {

@@ -167,11 +167,14 @@ mod tests {
         }
     }
 
+    /// Key and block of two siblings, from a number.
+    type Pair = fn(u64) -> [(u64, u32); 2];
+
     /// Means over 8 points of siblings; their correlation over 4096 pairs has σ = 1/64, the bound is 5 σ
     /// over 48 pairs (false alarm 3e-5).
     #[test]
     fn siblings_are_independent() {
-        let pairs: [fn(u64) -> [(u64, u32); 2]; 3] = [
+        let pairs: [Pair; 3] = [
             |i| [(combine(i, 0), 0), (combine(i, 1), 0)], // replicates
             |i| [(i, 0), (i, 1)],                         // blocks of one unhashed key
             |i| [(combine(i, 7), 3), (combine(i + 1, 7), 3)], // neighbouring streams
@@ -185,9 +188,7 @@ mod tests {
                             .sum::<f64>()
                             / 8.0
                     };
-                    let means = (0..4096)
-                        .map(|i| pair(i))
-                        .map(|[x, y]| (mean(x, d), mean(y, e)));
+                    let means = (0..4096).map(pair).map(|[x, y]| (mean(x, d), mean(y, e)));
                     let r = correlation(&means.collect::<Vec<_>>());
                     assert!(r.abs() < 5.0 / 64.0, "kind {kind}, dimensions {d} {e}: {r}");
                 }

@@ -1,0 +1,195 @@
+use super::*;
+use crate::estimation::film::{Filter, PASSES, PixelBatch, merge_exposures};
+use crate::estimation::{Progress, Silent, Stopping};
+use crate::sampling::block;
+
+/// A ramp with noise: x + 2y in the first channel, the same plus noise of mean 0 in the second, 1 in the third.
+struct Ramp;
+
+impl PixelSampler for Ramp {
+    type Workspace = ();
+
+    fn new_workspace(&self) {}
+
+    fn sample(&self, batch: &PixelBatch<'_>, _workspace: &mut (), out: &mut [[f32; CHANNELS]]) {
+        for (i, out) in out.iter_mut().enumerate() {
+            let ramp = batch.x[i] + 2.0 * batch.y[i];
+            let [noise, ..] = block::sample(batch.keys[i], batch.indices[i], 1);
+            *out = [ramp, ramp + 40.0 * (noise - 0.5), 1.0, batch.lens[0][i]];
+        }
+    }
+}
+
+fn film(filter: Filter) -> Film {
+    Film {
+        width: 70,
+        height: 45,
+        filter,
+        key: 9,
+        weights: [0.0, 1.0, 0.0, 0.0],
+    }
+}
+
+fn plan(stop: Stopping) -> Plan {
+    Plan {
+        stop,
+        replicates: PASSES,
+        threads: 2,
+        seed: 3,
+        ..Plan::default()
+    }
+}
+
+fn image(filter: Filter, plan: &Plan) -> Exposure {
+    expose(&Ramp, &film(filter), plan, &mut Silent).unwrap()
+}
+
+/// A linear function through a symmetric filter of integral one is its value at the centre of the pixel.
+#[test]
+fn every_pixel_is_unbiased_up_to_the_border() {
+    for filter in [Filter::Gaussian, Filter::Box] {
+        let image = image(filter, &plan(Stopping::at_samples(64)));
+        let centres = (0..45)
+            .flat_map(|y| (0..70).map(move |x| f64::from(x) + 0.5 + 2.0 * (f64::from(y) + 0.5)));
+        let (mut sum, mut squares, mut covered) = (0.0, 0.0, 0.0);
+        for ((value, error), exact) in image.values().iter().zip(image.std_errors()).zip(centres) {
+            assert!((value[2] - 1.0).abs() < 0.02);
+            sum += value[1] - exact;
+            squares += error[1] * error[1];
+            covered += f64::from(u8::from((value[1] - exact).abs() <= 3.182 * error[1]));
+        }
+        // Neighbours share samples, each spread over 16 pixels with total weight 1: variances of sums grow at most 16-fold.
+        let pixels = 70.0 * 45.0;
+        assert!(
+            sum.abs() < 5.0 * (16.0 * squares).sqrt(),
+            "{filter:?}: {sum}"
+        );
+        // t with 3 degrees of freedom covers 95 %: 5 σ, false alarm below 1e-6.
+        let sigma = (16.0_f64 * 0.95 * 0.05 / pixels).sqrt();
+        assert!(
+            (covered / pixels - 0.95).abs() < 5.0 * sigma,
+            "{filter:?}: {covered}"
+        );
+    }
+}
+
+#[test]
+fn bits_do_not_depend_on_threads_or_shards() {
+    for filter in [Filter::Gaussian, Filter::Box] {
+        let plan = plan(Stopping::at_samples(300));
+        let whole = image(filter, &plan);
+        assert_eq!(
+            whole,
+            image(
+                filter,
+                &Plan {
+                    threads: 1,
+                    ..plan.clone()
+                }
+            )
+        );
+        assert_eq!(
+            whole,
+            image(
+                filter,
+                &Plan {
+                    threads: 7,
+                    ..plan.clone()
+                }
+            )
+        );
+        let shards = [3, 1, 2].map(|k| {
+            image(
+                filter,
+                &Plan {
+                    shard: Some((k, 3)),
+                    ..plan.clone()
+                },
+            )
+        });
+        assert_eq!(merge_exposures(shards.to_vec()), Ok(whole));
+        assert!(merge_exposures(shards[1..].to_vec()).is_err());
+        assert!(merge_exposures(Vec::new()).is_err());
+    }
+}
+
+#[test]
+fn a_tolerance_is_met_by_the_tiles_that_need_it() {
+    let stop = Stopping::at_rel_error(0.05);
+    let image = image(Filter::Gaussian, &plan(stop));
+    assert!(image.converged() && image.passes() == PASSES);
+    // The dark corner needs more than the bright one: far fewer samples than the worst tile everywhere.
+    assert!(image.samples() < 74 * 49 * 4 * 4000);
+    assert!(
+        expose(
+            &Ramp,
+            &film(Filter::Box),
+            &Plan {
+                shard: Some((1, 2)),
+                ..plan(stop)
+            },
+            &mut Silent
+        )
+        .is_err()
+    );
+}
+
+#[test]
+fn a_timed_image_ends_in_time_and_is_complete() {
+    let image = image(
+        Filter::Gaussian,
+        &plan(Stopping::at_time(Duration::from_millis(100))),
+    );
+    assert!(image.converged() && image.samples() >= 74 * 49 * 4);
+}
+
+#[test]
+fn values_that_are_not_finite_are_an_error() {
+    struct Broken;
+    impl PixelSampler for Broken {
+        type Workspace = ();
+        fn new_workspace(&self) {}
+        fn sample(&self, batch: &PixelBatch<'_>, _workspace: &mut (), out: &mut [[f32; CHANNELS]]) {
+            for (x, out) in batch.x.iter().zip(out) {
+                *out = [
+                    0.0,
+                    0.0,
+                    if (50.0..51.0).contains(x) {
+                        f32::NAN
+                    } else {
+                        0.0
+                    },
+                    0.0,
+                ];
+            }
+        }
+    }
+    let result = expose(
+        &Broken,
+        &film(Filter::Gaussian),
+        &plan(Stopping::at_samples(4)),
+        &mut Silent,
+    );
+    assert!(
+        matches!(result, Err(EstimationError::NonFinitePixel { x, .. }) if (50.0..51.0).contains(&x))
+    );
+}
+
+#[test]
+fn breaking_leaves_complete_passes() {
+    let mut calls = 0;
+    let mut observer = |progress: &Progress| {
+        calls += 1;
+        assert!(progress.samples < progress.planned && progress.phase == Phase::Final);
+        ControlFlow::Break(())
+    };
+    let image = expose(
+        &Ramp,
+        &film(Filter::Gaussian),
+        &plan(Stopping::at_samples(1 << 30)),
+        &mut observer,
+    )
+    .unwrap();
+    assert_eq!((image.converged(), image.passes(), calls), (false, 0, 1));
+    assert!(image.std_errors().all(|error| error[0].is_infinite()));
+}
