@@ -14,6 +14,15 @@ pub trait Files {
     fn read(&self, path: &Path) -> io::Result<Vec<u8>>;
 }
 
+/// Why a file could not be read, in the same words on every platform where the reason is a common one.
+pub(crate) fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file".into(),
+        io::ErrorKind::PermissionDenied => "permission denied".into(),
+        _ => error.to_string(),
+    }
+}
+
 /// Files on disk: regular files up to a size limit.
 #[derive(Clone, Debug)]
 pub struct DiskFiles {

@@ -2,4 +2,6 @@
 
 pub mod diagnostic;
 pub mod files;
+pub mod import;
 pub mod report;
+pub mod scene_file;

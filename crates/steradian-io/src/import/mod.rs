@@ -1,0 +1,3 @@
+//! Readers of other programs' files.
+
+pub mod obj;

@@ -1,0 +1,128 @@
+//! `[[lights]]`: lights without a surface.
+
+use steradian::quantity::Angle;
+use steradian::scene::description::{LightDescription, LightKind, PointPower, SpotBeam};
+
+use super::fields::Fields;
+use super::keys::Value;
+use super::node::Node;
+use super::placement;
+use super::tables::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
+use super::value::{Read, choice};
+
+/// Reads one light.
+pub(super) fn read(node: Node<'_>) -> Option<LightDescription> {
+    let (kind, fields) = node.kind(&LIGHTS)?;
+    let kind = match kind {
+        "point" => point(&fields),
+        "spot" => spot(&fields),
+        "directional" => directional(&fields),
+        _ => fields
+            .get("radiance")
+            .map(|radiance| LightKind::Environment { radiance }),
+    };
+    let (name, group) = (fields.get("name"), fields.get("group"));
+    let (spectrum, repeat) = (fields.get("spectrum"), placement::repeat(&fields));
+    Some(LightDescription {
+        name,
+        group,
+        spectrum,
+        repeat,
+        kind: kind?,
+    })
+}
+
+fn point(fields: &Fields<'_>) -> Option<LightKind> {
+    let (position, power) = (placement::point(fields, "position"), power(fields));
+    Some(LightKind::Point {
+        position: position?,
+        power: power?,
+    })
+}
+
+fn spot(fields: &Fields<'_>) -> Option<LightKind> {
+    let (position, direction) = (
+        placement::point(fields, "position"),
+        placement::direction(fields, "direction"),
+    );
+    let (beam, power) = (beam(fields), power(fields));
+    Some(LightKind::Spot {
+        position: position?,
+        direction: direction?,
+        beam: beam?,
+        power: power?,
+    })
+}
+
+fn directional(fields: &Fields<'_>) -> Option<LightKind> {
+    let (direction, irradiance) = (
+        placement::direction(fields, "direction"),
+        fields.get("irradiance"),
+    );
+    Some(LightKind::Directional {
+        direction: direction?,
+        irradiance: irradiance?,
+    })
+}
+
+fn power(fields: &Fields<'_>) -> Option<PointPower> {
+    let intensity = fields.get("intensity").map(PointPower::Intensity);
+    intensity.or(fields.get("flux").map(PointPower::Flux))
+}
+
+/// `cutoff` and `falloff`, or `beam_angle`.
+fn beam(fields: &Fields<'_>) -> Option<SpotBeam> {
+    if fields.has("beam_angle") {
+        return half_peak_beam(fields);
+    }
+    let (cutoff, falloff) = (fields.get("cutoff"), fields.get("falloff"));
+    let cutoff: Angle = cutoff?;
+    Some(match falloff? {
+        Falloff::Uniform => SpotBeam::Uniform { cutoff },
+        Falloff::Power(exponent) => SpotBeam::CosinePower { exponent, cutoff },
+        Falloff::Inner(inner) => SpotBeam::Smooth { inner, cutoff },
+    })
+}
+
+/// The beam cosⁿθ over the half-space that has half its peak at half the beam angle: n = ln ½ / ln cos(beam/2).
+fn half_peak_beam(fields: &Fields<'_>) -> Option<SpotBeam> {
+    let beam: Angle = fields.get("beam_angle")?;
+    let half = beam.to_radians() / 2.0;
+    if !(half > 0.0 && half < Angle::QUARTER_TURN.to_radians()) {
+        let message = format!(
+            "a beam angle lies between 0 and 180 deg, not {} deg",
+            beam.to_degrees()
+        );
+        fields
+            .context()
+            .error(fields.span_of("beam_angle"), message, None);
+        return None;
+    }
+    let exponent = libm::log(0.5) / libm::log(libm::cos(half));
+    Some(SpotBeam::CosinePower {
+        exponent,
+        cutoff: Angle::QUARTER_TURN,
+    })
+}
+
+/// How the intensity of a spot falls off towards its cutoff.
+enum Falloff {
+    Uniform,
+    Power(f64),
+    Inner(Angle),
+}
+
+impl Read for Falloff {
+    const VALUE: Value = FALLOFF_VALUE;
+
+    fn read(node: Node<'_>) -> Option<Self> {
+        if !node.toml.is_table() {
+            return choice(node, FALLOFF_NAMES).map(|_| Self::Uniform);
+        }
+        let fields = node.record(&FALLOFF)?;
+        fields
+            .get("power")
+            .map(Self::Power)
+            .or(fields.get("inner").map(Self::Inner))
+    }
+}

@@ -1,0 +1,172 @@
+//! `[[sensors]]`: what is measured.
+
+use steradian::geometry::{Point, Transform, Vector};
+use steradian::quantity::Length;
+use steradian::scene::description::{
+    CameraDescription, FluxOf, FluxSurface, Receivers, Response, SensorDescription, SensorKind,
+    Side,
+};
+
+use super::fields::Fields;
+use super::keys::Value;
+use super::node::Node;
+use super::tables::{GRID, SENSORS, SURFACES};
+use super::value::{Read, Towards, choices};
+use super::{placement, shape};
+
+choices! { Response, "auto" => Self::Auto, "radiant" => Self::Radiant, "photopic" => Self::Photopic }
+choices! { Side, "front" => Self::Front, "back" => Self::Back }
+choices! {
+    FluxOf,
+    "incident" => Self::Incident,
+    "leaving" => Self::Leaving,
+    "absorbed" => Self::Absorbed,
+    "net" => Self::Net,
+}
+
+/// Reads one sensor. The photometric kinds are the radiometric ones with the photopic response.
+pub(super) fn read(node: Node<'_>) -> Option<SensorDescription> {
+    let (name, fields) = node.kind(&SENSORS)?;
+    let kind = match name {
+        "irradiance" | "illuminance" => receivers(&fields).map(SensorKind::Irradiance),
+        "flux" | "luminous-flux" => flux(&fields),
+        "radiance" | "luminance" => rays(&fields, "rays").map(|rays| SensorKind::Radiance { rays }),
+        "scalar-irradiance" => {
+            positions(&fields).map(|points| SensorKind::ScalarIrradiance { points })
+        }
+        _ => camera(&fields).map(SensorKind::Camera),
+    };
+    let response = response(name, &fields);
+    let name = fields.get("name");
+    Some(SensorDescription {
+        name: name?,
+        response,
+        kind: kind?,
+    })
+}
+
+fn response(kind: &str, fields: &Fields<'_>) -> Option<Response> {
+    let given = fields.get("response");
+    if !matches!(kind, "illuminance" | "luminance" | "luminous-flux") {
+        return given;
+    }
+    if given.is_some_and(|given| given != Response::Photopic) {
+        let message = format!("the response of a sensor of kind {kind:?} is \"photopic\"");
+        fields
+            .context()
+            .error(fields.span_of("response"), message, None);
+    }
+    Some(Response::Photopic)
+}
+
+fn receivers(fields: &Fields<'_>) -> Option<Receivers> {
+    if fields.has("points") {
+        return rays(fields, "points").map(Receivers::Points);
+    }
+    if fields.has("grid") {
+        return fields.get("grid").map(|Grid(receivers)| receivers);
+    }
+    let (side, count, offset) = (
+        fields.get("side"),
+        fields.get("count"),
+        fields.get::<Length>("offset"),
+    );
+    Some(Receivers::Shape {
+        shape: fields.get("shape")?,
+        side: side?,
+        count: count?,
+        offset: offset?.to_metres(),
+    })
+}
+
+fn rays(fields: &Fields<'_>, key: &str) -> Option<Vec<(Point, Vector)>> {
+    let up = fields.context().up.get();
+    let rays: Vec<(Point, Towards)> = fields.get(key)?;
+    Some(
+        rays.into_iter()
+            .map(|(point, towards)| (up.point(point), up.direction(towards)))
+            .collect(),
+    )
+}
+
+fn positions(fields: &Fields<'_>) -> Option<Vec<Point>> {
+    let up = fields.context().up.get();
+    let points: Vec<Point> = fields.get("points")?;
+    Some(points.into_iter().map(|point| up.point(point)).collect())
+}
+
+fn flux(fields: &Fields<'_>) -> Option<SensorKind> {
+    let surface = if fields.has("surface") {
+        fields.get("surface").map(|Surface(surface)| surface)
+    } else {
+        let (name, side) = (fields.get("shape"), fields.get("side"));
+        name.zip(side)
+            .map(|(name, side)| FluxSurface::Shape { name, side })
+    };
+    let of = fields.get("of");
+    Some(SensorKind::Flux {
+        surface: surface?,
+        of: of?,
+    })
+}
+
+fn camera(fields: &Fields<'_>) -> Option<CameraDescription> {
+    let (position, look_at) = (
+        placement::point(fields, "position"),
+        placement::point(fields, "look_at"),
+    );
+    let up = if fields.has("up") {
+        placement::direction(fields, "up")
+    } else {
+        Some(Vector::new(0.0, 0.0, 1.0))
+    };
+    let (fov, resolution) = (fields.get("fov"), fields.get("resolution"));
+    Some(CameraDescription {
+        position: position?,
+        look_at: look_at?,
+        up: up?,
+        fov: fov?,
+        resolution: resolution?,
+    })
+}
+
+/// The grid of an irradiance sensor.
+struct Grid(Receivers);
+
+impl Read for Grid {
+    const VALUE: Value = Value::Table(&GRID);
+
+    fn read(node: Node<'_>) -> Option<Self> {
+        let fields = node.record(&GRID)?;
+        let (origin, edges) = (
+            placement::point(&fields, "origin"),
+            placement::edges(&fields, "edges"),
+        );
+        let (count, normal) = (fields.get("count"), placement::direction(&fields, "normal"));
+        Some(Self(Receivers::Grid {
+            origin: origin?,
+            edges: edges?,
+            count: count?,
+            normal,
+        }))
+    }
+}
+
+/// A surface of its own.
+struct Surface(FluxSurface);
+
+impl Read for Surface {
+    const VALUE: Value = Value::Kinds(&SURFACES);
+
+    fn read(node: Node<'_>) -> Option<Self> {
+        let (kind, fields) = node.kind(&SURFACES)?;
+        let (geometry, transform) = (
+            shape::geometry(kind, &fields),
+            placement::transform(&fields, Transform::IDENTITY),
+        );
+        Some(Self(FluxSurface::Virtual {
+            geometry: geometry?,
+            transform: transform?,
+        }))
+    }
+}

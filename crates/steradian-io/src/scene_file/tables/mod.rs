@@ -1,0 +1,151 @@
+//! The rows of the table of keys: every section, kind and key of a scene file.
+//!
+//! A key's row is all that the schema, the help text and the hints know of it; what it means is in the reader of
+//! its section.
+
+mod lights;
+mod sensors;
+mod shapes;
+
+use steradian::quantity::LuminousEfficacy;
+use steradian::scene::description::Response;
+
+use super::keys::{Family, Form, Key, Kind, Record, Section, Value};
+use super::up::UpAxis;
+use super::value::Read;
+
+pub use lights::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
+pub use sensors::{GRID, SENSORS};
+pub use shapes::{
+    EMISSION, FACE_NAMES, FACES, OPENING, PORT, REPEAT, SCALE, SHAPES, SURFACES, TRANSFORM_STEP,
+};
+
+const MATERIAL: Value = Value::Name("material");
+const SHAPE: Value = Value::Name("shape");
+const POINTS: Value = Value::List(&Value::Point);
+const EDGES: Value = Value::Array(&Value::Displacement, 2);
+
+pub const SPECTRUM_NAMES: &[&str] = &["broadband", "rgb"];
+pub const SPECTRUM: Value = Value::Either(&[Value::Choice(SPECTRUM_NAMES), Value::Table(&BANDS)]);
+
+/// Every section.
+pub const SECTIONS: &[Section] = &[
+    Section {
+        name: "scene",
+        doc: "The scene as a whole",
+        form: Form::One(&SCENE),
+    },
+    Section {
+        name: "materials",
+        doc: "What surfaces are made of, by name",
+        form: Form::Named(&MATERIALS),
+    },
+    Section {
+        name: "shapes",
+        doc: "Surfaces; one with an emission is an area light",
+        form: Form::List(&SHAPES),
+    },
+    Section {
+        name: "lights",
+        doc: "Lights without a surface",
+        form: Form::List(&LIGHTS),
+    },
+    Section {
+        name: "sensors",
+        doc: "What is measured",
+        form: Form::List(&SENSORS),
+    },
+    Section {
+        name: "site",
+        doc: "",
+        form: Form::NotYet,
+    },
+];
+
+pub const SCENE: Record = Record {
+    noun: "the scene",
+    keys: &[
+        Key::default("name", Value::Text, "\"\"", "A title for reports"),
+        Key::default(
+            "spectrum",
+            SPECTRUM,
+            "\"broadband\"",
+            "What the numbers of a spectrum stand for",
+        ),
+        Key::default(
+            "response",
+            Response::VALUE,
+            "\"auto\"",
+            "What sensors report: watts, lumens, or what the lights are given in",
+        ),
+        Key::default(
+            "up",
+            UpAxis::VALUE,
+            "\"z\"",
+            "The axis that points up in this file; \"y\" is turned to z on reading: (x, y, z) becomes (x, -z, y)",
+        ),
+        Key::optional(
+            "luminous_efficacy",
+            LuminousEfficacy::VALUE,
+            "Luminous efficacy K that links watts and lumens",
+        ),
+    ],
+};
+
+pub const BANDS: Record = Record {
+    noun: "a spectrum",
+    keys: &[Key::required(
+        "bands",
+        Value::List(&Value::Text),
+        "Names of one to four bands; `visible` is the one that lumens belong to",
+    )],
+};
+
+pub const MATERIALS: Family = Family {
+    noun: "material",
+    tag: "model",
+    untagged: Some("two-sided"),
+    common: &[],
+    kinds: &[
+        Kind::new(
+            "lambertian",
+            "Reflects the same radiance in all directions",
+            &[Key::required(
+                "reflectance",
+                Value::Lanes,
+                "Part of the arriving flux that is reflected, 0 to 1",
+            )],
+        ),
+        Kind::new(
+            "mirror",
+            "A perfect mirror",
+            &[Key::default(
+                "reflectance",
+                Value::Lanes,
+                "1",
+                "Part of the arriving flux that is reflected, 0 to 1",
+            )],
+        ),
+        Kind::new(
+            "two-sided",
+            "Another material on each side; `model` may be left out",
+            &[
+                Key::required(
+                    "front",
+                    MATERIAL,
+                    "Material of the side that the normal points to",
+                ),
+                Key::required("back", MATERIAL, "Material of the other side"),
+            ],
+        ),
+        Kind::not_yet("oren-nayar"),
+        Kind::not_yet("conductor"),
+        Kind::not_yet("dielectric"),
+        Kind::not_yet("glass"),
+        Kind::not_yet("pane"),
+        Kind::not_yet("plastic"),
+        Kind::not_yet("ward"),
+        Kind::not_yet("phong"),
+        Kind::not_yet("principled"),
+    ],
+};

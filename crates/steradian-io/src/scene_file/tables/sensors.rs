@@ -1,0 +1,128 @@
+//! Keys of sensors.
+
+use steradian::quantity::{Angle, Length};
+use steradian::scene::description::{FluxOf, Response, Side};
+
+use super::{EDGES, POINTS, SHAPE, SURFACES};
+use crate::scene_file::keys::{Family, Key, Kind, Record, Value};
+use crate::scene_file::value::Read;
+
+const RECEIVERS: &[Key] = &[
+    Key::one_of(
+        "place",
+        "points",
+        Value::List(&Value::PointAndDirection),
+        "[x, y, z, nx, ny, nz] of each, n the normal",
+    ),
+    Key::one_of(
+        "place",
+        "grid",
+        Value::Table(&GRID),
+        "The cell centres of a grid",
+    ),
+    Key::one_of("place", "shape", SHAPE, "Points spread over a shape"),
+    Key::default("side", Side::VALUE, "\"front\"", "The side of the shape").beside("shape"),
+    Key::default("count", Value::Count, "16", "How many points").beside("shape"),
+    Key::default(
+        "offset",
+        Length::VALUE,
+        "0",
+        "Their distance from the surface",
+    )
+    .beside("shape"),
+];
+const FLUX_SENSOR: &[Key] = &[
+    Key::one_of("surface", "shape", SHAPE, "A shape of the scene"),
+    Key::one_of(
+        "surface",
+        "surface",
+        Value::Kinds(&SURFACES),
+        "A surface of its own that does not block light, counted on its front",
+    ),
+    Key::default("side", Side::VALUE, "\"front\"", "The side of the shape").beside("shape"),
+    Key::default("of", FluxOf::VALUE, "\"incident\"", "Which flux is counted"),
+];
+const RAYS: &[Key] = &[Key::required(
+    "rays",
+    Value::List(&Value::PointAndDirection),
+    "[x, y, z, dx, dy, dz] of each, d the way the sensor looks",
+)];
+
+pub const SENSORS: Family = Family {
+    noun: "sensor",
+    tag: "kind",
+    untagged: None,
+    kinds: &[
+        Kind::new("irradiance", "Flux per area arriving at points", RECEIVERS),
+        Kind::new(
+            "illuminance",
+            "Luminous flux per area arriving at points",
+            RECEIVERS,
+        ),
+        Kind::new("flux", "Flux through or from a surface", FLUX_SENSOR),
+        Kind::new(
+            "luminous-flux",
+            "Luminous flux through or from a surface",
+            FLUX_SENSOR,
+        ),
+        Kind::new("radiance", "Radiance arriving along rays", RAYS),
+        Kind::new("luminance", "Luminance arriving along rays", RAYS),
+        Kind::new(
+            "scalar-irradiance",
+            "Radiance arriving at points, integrated over all directions",
+            &[Key::required("points", POINTS, "[x, y, z] of each")],
+        ),
+        Kind::new(
+            "camera",
+            "A picture of radiance in perspective",
+            &[
+                Key::required("position", Value::Point, "Where it is"),
+                Key::required(
+                    "look_at",
+                    Value::Point,
+                    "The point in the middle of the picture",
+                ),
+                Key::optional(
+                    "up",
+                    Value::Direction,
+                    "Up in the picture; up in the scene unless given",
+                ),
+                Key::required("fov", Angle::VALUE, "Full horizontal angle of view"),
+                Key::required(
+                    "resolution",
+                    Value::Array(&Value::Count, 2),
+                    "Width and height in pixels",
+                ),
+                Key::not_yet("projection"),
+            ],
+        ),
+        Kind::not_yet("intensity"),
+    ],
+    common: &[
+        Key::required("name", Value::Text, "What reports call it; no two alike"),
+        Key::optional(
+            "response",
+            Response::VALUE,
+            "What it reports, if not what the scene says",
+        ),
+        Key::not_yet("bins"),
+    ],
+};
+
+pub const GRID: Record = Record {
+    noun: "a grid",
+    keys: &[
+        Key::required("origin", Value::Point, "A corner"),
+        Key::required("edges", EDGES, "Its two sides"),
+        Key::required(
+            "count",
+            Value::Array(&Value::Count, 2),
+            "Cells along each side",
+        ),
+        Key::optional(
+            "normal",
+            Value::Direction,
+            "The first × the second edge unless given",
+        ),
+    ],
+};

@@ -1,0 +1,38 @@
+//! Scene files: every key, every kind of mistake, the shipped scenes, and files that are no scenes at all.
+
+mod every_key;
+mod generated;
+mod mutations;
+mod problems;
+mod reading;
+mod scenes;
+
+use steradian::scene::description::SceneDescription;
+use steradian_io::diagnostic::{Diagnostic, render};
+use steradian_io::files::MemoryFiles;
+use steradian_io::scene_file::{LoadedScene, read_scene_str};
+
+/// A triangle of sides along x and y, of 1 000 units.
+const TRIANGLE: &str = "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nf 1 2 3\n";
+
+fn files() -> MemoryFiles {
+    MemoryFiles::default()
+        .with("parts/triangle.obj", TRIANGLE)
+        .with("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n")
+}
+
+fn load(text: &str) -> LoadedScene {
+    read_scene_str("scene.toml", text, &files())
+        .unwrap_or_else(|problems| panic!("{}", render(&problems, false)))
+}
+
+fn describe(text: &str) -> SceneDescription {
+    load(text).description
+}
+
+fn problems(text: &str) -> Vec<Diagnostic> {
+    match read_scene_str("scene.toml", text, &files()) {
+        Ok(_) => Vec::new(),
+        Err(problems) => problems,
+    }
+}
