@@ -3,6 +3,7 @@
 //! [`measure`] reads every sensor but cameras, [`render`] a camera. Both run the [`path`](self) estimator under the
 //! engine of [`estimation`](crate::estimation), which decides how many samples are taken and how large the error is.
 
+mod camera;
 mod columns;
 mod exact;
 mod interaction;
@@ -16,5 +17,5 @@ mod scatter;
 mod tables;
 mod unsampled;
 
-pub use run::{MeasureOptions, SimulationError, measure};
+pub use run::{MeasureOptions, Picture, RenderOptions, SimulationError, measure, render};
 pub use unsampled::unsampled;

@@ -1,16 +1,21 @@
 //! Running a simulation: which streams there are, and what their replicates mean.
 
+use serde::{Deserialize, Serialize};
 use steradian_kernel::InstructionSet;
 use thiserror::Error;
 
+use super::camera::CameraSampler;
 use super::measure::{Meters, streams};
 use super::meters::{self, Prepared};
+use super::path::Tracer;
 use super::tables::Tables;
 use super::unsampled::unsampled;
-use crate::estimation::{EstimationError, Observer, Plan, Replicates, estimate};
+use crate::estimation::film::{Exposure, Film, Filter, PASSES, expose};
+use crate::estimation::{EstimationError, Observer, Plan, Replicates, Stopping, estimate};
 use crate::measurement::{LaneRecord, Measurements, PointRecord, SensorRecord};
+use crate::sampling::hash;
 use crate::scene::Scene;
-use crate::sensor::{Kind, Readout};
+use crate::sensor::{Kind, Readout, Sensor};
 
 /// How a scene is measured.
 #[derive(Clone, Debug)]
@@ -34,6 +39,67 @@ impl Default for MeasureOptions {
             sensors: None,
         }
     }
+}
+
+/// How a picture is made.
+#[derive(Clone, Debug)]
+pub struct RenderOptions {
+    /// Seed, stopping rule (samples are those of a pixel), passes (as replicates), threads, shard.
+    pub plan: Plan,
+    /// Reconstruction filter.
+    pub filter: Filter,
+    /// Longest path in segments; `None` is no limit.
+    pub max_depth: Option<u32>,
+    /// Instruction set of the batched loops; the result does not depend on it.
+    pub instruction_set: InstructionSet,
+    /// Width and height instead of the camera's.
+    pub resolution: Option<[u32; 2]>,
+}
+
+impl Default for RenderOptions {
+    /// 64 samples a pixel in 4 passes.
+    fn default() -> Self {
+        let plan = Plan {
+            stop: Stopping::at_samples(64),
+            replicates: PASSES,
+            ..Plan::default()
+        };
+        let instruction_set = InstructionSet::detect();
+        Self {
+            plan,
+            filter: Filter::default(),
+            max_depth: None,
+            instruction_set,
+            resolution: None,
+        }
+    }
+}
+
+/// A picture with what its numbers mean.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Picture {
+    /// Title of the scene.
+    pub scene_name: String,
+    /// Name of the camera.
+    pub camera: String,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Luminous efficacy K in lm/W that links watts and lumens in this run.
+    pub luminous_efficacy: Option<f64>,
+    /// Longest path in segments, if it was limited.
+    pub max_depth: Option<u32>,
+    /// Lanes of every pixel with their error: radiant, W/(m² sr).
+    pub exposure: Exposure,
+    /// Names of the lanes.
+    pub lanes: Vec<String>,
+    /// What is read from the lanes, radiant before photometric.
+    pub readouts: Vec<Readout>,
+    /// Path classes that no estimator could sample.
+    pub unsampled: Vec<String>,
+    /// What a reader of the numbers should know.
+    pub warnings: Vec<String>,
+    /// Part k of n, if this is a shard.
+    pub shard: Option<(u32, u32)>,
 }
 
 /// Why a simulation was refused or given up.
@@ -64,6 +130,71 @@ pub enum SimulationError {
     /// The estimation failed.
     #[error(transparent)]
     Estimation(#[from] EstimationError),
+}
+
+/// Makes a picture with the camera of this number among the sensors.
+pub fn render(
+    scene: &Scene,
+    sensor: usize,
+    options: &RenderOptions,
+    observer: &mut dyn Observer,
+) -> Result<Picture, SimulationError> {
+    let sensor = scene
+        .sensors()
+        .get(sensor)
+        .ok_or(SimulationError::NothingToDo("camera"))?;
+    let Kind::Camera(camera) = &sensor.kind else {
+        let name = sensor.name.clone();
+        return Err(SimulationError::WrongSensor {
+            name,
+            is: "a meter",
+            expected: "a camera",
+        });
+    };
+    let resolution = options.resolution.unwrap_or(camera.resolution);
+    let tables = Tables::new(scene);
+    let max_depth = options.max_depth.unwrap_or(u32::MAX);
+    let tracer = Tracer {
+        tables: &tables,
+        set: options.instruction_set,
+        max_depth,
+        merge_groups: true,
+    };
+    let sampler = CameraSampler::new(tracer, &camera.with_resolution(resolution));
+    let exposure = expose(
+        &sampler,
+        &film(scene, sensor, resolution, options.filter),
+        &options.plan,
+        observer,
+    )?;
+    Ok(Picture {
+        scene_name: scene.name().into(),
+        camera: sensor.name.clone(),
+        seed: options.plan.seed,
+        luminous_efficacy: scene.reported_efficacy(),
+        max_depth: options.max_depth,
+        exposure,
+        lanes: scene.lanes().names().to_vec(),
+        readouts: sensor.readouts.clone(),
+        unsampled: unsampled(scene),
+        warnings: scene.warnings().to_vec(),
+        shard: options.plan.shard,
+    })
+}
+
+fn film(scene: &Scene, camera: &Sensor, [width, height]: [u32; 2], filter: Filter) -> Film {
+    let lanes = camera.readouts.first().map_or_else(
+        || scene.lanes().radiant_weights(),
+        |readout| readout.weights.clone(),
+    );
+    let weights = std::array::from_fn(|channel| lanes.get(channel).copied().unwrap_or(0.0));
+    Film {
+        width,
+        height,
+        filter,
+        key: hash::key_of_name(&camera.name),
+        weights,
+    }
 }
 
 /// Reads the sensors of a scene (all but cameras).
