@@ -103,30 +103,61 @@ impl SmallScene {
     ) -> Best<F> {
         let zero = F::splat(set, 0.0);
         let mut best = Best::none(set);
-        let mut index = 0.0;
-        for triangle in &self.triangles {
+        let mut postponed = Postponed::default();
+        for (index, triangle) in self.triangles.iter().enumerate() {
             let [a, b, c] = corners(triangle, sheared);
-            index += 1.0;
             let edges = Edges::new(a, b, c);
-            let inside = edges.inside(set);
-            if inside.bits() == 0 {
-                continue;
-            }
             let certain = edges.certainly_inside(set);
+            postponed.set(index, edges.inside(set).bits() & !certain.bits());
             let crossing = edges.intersection([a[2], b[2], c[2]]);
             let on_ray = zero.less(crossing.t) & crossing.t.less_equal(group.t_max);
             let nearer = certain & on_ray & crossing.t.less(best.t);
             best.t = F::select(nearer, crossing.t, best.t);
-            best.index = F::select(nearer, F::splat(set, index), best.index);
+            best.index = F::select(nearer, F::splat(set, (index + 1) as f32), best.index);
             best.v = F::select(nearer, crossing.v, best.v);
             best.w = F::select(nearer, crossing.w, best.w);
             best.determinant = F::select(nearer, crossing.determinant, best.determinant);
-            let uncertain = inside.bits() & !certain.bits();
-            if uncertain != 0 {
-                best.offer_exact(set, index, uncertain, &[a, b, c], group.t_max);
+        }
+        if postponed.any == 0 {
+            best
+        } else {
+            self.closest_exactly(set, group, sheared, best, &postponed)
+        }
+    }
+
+    /// The same for the triangles that `f32` could not decide.
+    #[cold]
+    fn closest_exactly<F: Floats>(
+        &self,
+        set: F::Set,
+        group: &Group<F>,
+        sheared: &[[F; 3]],
+        best: Best<F>,
+        postponed: &Postponed,
+    ) -> Best<F> {
+        let (mut t, mut index) = (column(best.t), column(best.index));
+        let (mut v, mut w) = (column(best.v), column(best.w));
+        let (mut determinant, t_max) = (column(best.determinant), column(group.t_max));
+        for (place, triangle) in self.triangles.iter().enumerate() {
+            let number = (place + 1) as f32;
+            for (lane, crossing) in
+                exact_crossings(postponed.lanes[place], &corners(triangle, sheared))
+            {
+                let is_nearer =
+                    crossing[0] < t[lane] || (crossing[0] == t[lane] && number < index[lane]);
+                if crossing[0] > 0.0 && crossing[0] <= t_max[lane] && is_nearer {
+                    [t[lane], v[lane], w[lane]] = crossing;
+                    (index[lane], determinant[lane]) = (number, 1.0);
+                }
             }
         }
-        best
+        Best {
+            t: F::load(set, &t),
+            index: F::load(set, &index),
+            v: F::load(set, &v),
+            w: F::load(set, &w),
+            determinant: F::load(set, &determinant),
+        }
     }
 
     /// Lanes whose ray meets something.
@@ -139,22 +170,61 @@ impl SmallScene {
     ) -> u32 {
         let zero = F::splat(set, 0.0);
         let mut met = 0;
-        for triangle in &self.triangles {
+        let mut postponed = Postponed::default();
+        for (index, triangle) in self.triangles.iter().enumerate() {
             let [a, b, c] = corners(triangle, sheared);
             let edges = Edges::new(a, b, c);
-            let inside = edges.inside(set);
-            if inside.bits() & !met == 0 {
-                continue;
-            }
             let certain = edges.certainly_inside(set);
+            postponed.set(index, edges.inside(set).bits() & !certain.bits());
             let t = edges.intersection([a[2], b[2], c[2]]).t;
             met |= (certain & zero.less(t) & t.less(group.t_max)).bits();
-            let uncertain = inside.bits() & !certain.bits() & !met;
-            if uncertain != 0 {
-                met |= exactly_occluded(uncertain, &[a, b, c], group.t_max);
+        }
+        if postponed.any & !met == 0 {
+            met
+        } else {
+            met | self.occluded_exactly(group, sheared, &postponed)
+        }
+    }
+
+    #[cold]
+    fn occluded_exactly<F: Floats>(
+        &self,
+        group: &Group<F>,
+        sheared: &[[F; 3]],
+        postponed: &Postponed,
+    ) -> u32 {
+        let t_max = column(group.t_max);
+        let mut met = 0;
+        for (triangle, &lanes) in self.triangles.iter().zip(&postponed.lanes) {
+            for (lane, [t, ..]) in exact_crossings(lanes, &corners(triangle, sheared)) {
+                met |= u32::from(t > 0.0 && t < t_max[lane]) << lane;
             }
         }
         met
+    }
+}
+
+/// Lanes to be looked at again, for each triangle: a call in the loop would push the hits out of the registers.
+struct Postponed {
+    lanes: [u32; MOST_TRIANGLES],
+    any: u32,
+}
+
+impl Default for Postponed {
+    #[inline(always)]
+    fn default() -> Self {
+        Self {
+            lanes: [0; MOST_TRIANGLES],
+            any: 0,
+        }
+    }
+}
+
+impl Postponed {
+    #[inline(always)]
+    fn set(&mut self, triangle: usize, lanes: u32) {
+        self.lanes[triangle] = lanes;
+        self.any |= lanes;
     }
 }
 
@@ -270,6 +340,7 @@ impl<M: Mask> Axes<M> {
 }
 
 /// The closest hits of a group.
+#[derive(Copy, Clone)]
 struct Best<F> {
     t: F,
     /// Place in [`SmallScene::numbers`], a small integer and so exact; 0 for a miss.
@@ -290,34 +361,6 @@ impl<F: Floats> Best<F> {
             w: zero,
             determinant: one,
         }
-    }
-
-    #[cold]
-    fn offer_exact(
-        &mut self,
-        set: F::Set,
-        index: f32,
-        lanes: u32,
-        corners: &[[F; 3]; 3],
-        t_max: F,
-    ) {
-        let (mut t, mut place) = (column(self.t), column(self.index));
-        let (mut v, mut w, mut determinant) =
-            (column(self.v), column(self.w), column(self.determinant));
-        let t_max = column(t_max);
-        for (lane, crossing) in exact_crossings(lanes, corners) {
-            if crossing[0] > 0.0 && crossing[0] <= t_max[lane] && crossing[0] < t[lane] {
-                [t[lane], v[lane], w[lane]] = crossing;
-                (place[lane], determinant[lane]) = (index, 1.0);
-            }
-        }
-        *self = Self {
-            t: F::load(set, &t),
-            index: F::load(set, &place),
-            v: F::load(set, &v),
-            w: F::load(set, &w),
-            determinant: F::load(set, &determinant),
-        };
     }
 
     #[inline(always)]
@@ -353,12 +396,4 @@ fn exact_crossings<F: Floats>(
             let [a, b, c] = corners.map(|corner| corner.map(|column| column[lane]));
             Some((lane, exact_intersection(a, b, c)?))
         })
-}
-
-#[cold]
-fn exactly_occluded<F: Floats>(lanes: u32, corners: &[[F; 3]; 3], t_max: F) -> u32 {
-    let ends = column(t_max);
-    exact_crossings(lanes, corners)
-        .filter(|&(lane, [t, ..])| t > 0.0 && t < ends[lane])
-        .fold(0, |met, (lane, _)| met | 1 << lane)
 }
