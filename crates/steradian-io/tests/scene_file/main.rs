@@ -6,6 +6,7 @@ mod mutations;
 mod problems;
 mod reading;
 mod scenes;
+mod validation;
 
 use steradian::scene::description::SceneDescription;
 use steradian_io::diagnostic::{Diagnostic, render};

@@ -16,7 +16,8 @@ fn directory() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
 
-fn shipped(name: &str) -> SceneDescription {
+/// A scene of the `scenes` directory.
+pub fn shipped(name: &str) -> SceneDescription {
     let path = directory().join(name);
     match read_scene(&path, &DiskFiles::default()) {
         Ok(loaded) => loaded.description,
@@ -24,21 +25,24 @@ fn shipped(name: &str) -> SceneDescription {
     }
 }
 
+/// The names of the shipped scenes.
+pub fn names() -> Vec<String> {
+    let entries = std::fs::read_dir(directory())
+        .into_iter()
+        .flatten()
+        .flatten();
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    names.filter(|name| name.ends_with(".toml")).collect()
+}
+
 #[test]
 fn every_shipped_scene_is_read() {
-    let entries = std::fs::read_dir(directory())
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    let scenes: Vec<PathBuf> = entries
-        .filter(|path| path.extension().is_some_and(|kind| kind == "toml"))
-        .collect();
-    assert!(scenes.len() >= 7, "{scenes:?}");
-    for path in scenes {
-        let scene = shipped(&path.file_name().unwrap().to_string_lossy());
+    assert!(names().len() >= 7, "{:?}", names());
+    for name in names() {
+        let scene = shipped(&name);
         assert!(
             !scene.name.is_empty() && !scene.sensors.is_empty(),
-            "{}",
-            path.display()
+            "{name}"
         );
     }
 }
