@@ -39,21 +39,28 @@ impl InstructionSet {
             .collect()
     }
 
-    /// Calls `f` from a function compiled for this instruction set.
-    ///
-    /// What the compiler inlines into `f` is vectorised for the set: keep the closure a single call of an
-    /// `#[inline(always)]` function that holds the loop. Multiply-adds are not fused, so the bits do not change.
+    /// Does `work` in a function compiled for this instruction set.
     ///
     /// ```
-    /// use steradian_kernel::InstructionSet;
+    /// use steradian_kernel::{InstructionSet, Work};
     ///
-    /// let (a, mut sum) = ([1.0_f32; 64], [0.5_f32; 64]);
-    /// InstructionSet::detect().run(|| sum.iter_mut().zip(a).for_each(|(sum, a)| *sum += a));
-    /// assert_eq!(sum, [1.5; 64]);
+    /// struct Double<'a>(&'a mut [f32]);
+    ///
+    /// impl Work for Double<'_> {
+    ///     type Output = ();
+    ///     #[inline(always)]
+    ///     fn run(self) {
+    ///         self.0.iter_mut().for_each(|x| *x *= 2.0);
+    ///     }
+    /// }
+    ///
+    /// let mut column = [0.5_f32; 64];
+    /// InstructionSet::detect().run(Double(&mut column));
+    /// assert_eq!(column, [1.0; 64]);
     /// ```
     #[inline]
-    pub fn run<R>(self, f: impl FnOnce() -> R) -> R {
-        self.dispatch(Closure(f))
+    pub fn run<W: Work>(self, work: W) -> W::Output {
+        self.dispatch(Plain(work))
     }
 
     #[inline]
@@ -72,13 +79,26 @@ impl InstructionSet {
     }
 }
 
-struct Closure<F>(F);
+/// A loop that the compiler vectorises for the instruction set it runs with.
+///
+/// [`run`](Self::run) must be `#[inline(always)]`, as must be what it calls: only code that is inlined into the
+/// function compiled for the set is compiled for it. (A closure cannot be marked so, which is why this is a trait.)
+/// Multiply-adds are not fused, so the bits are the same for every set.
+pub trait Work {
+    /// What the loop gives.
+    type Output;
 
-impl<R, F: FnOnce() -> R> Kernel for Closure<F> {
-    type Output = R;
+    /// The loop.
+    fn run(self) -> Self::Output;
+}
+
+struct Plain<W>(W);
+
+impl<W: Work> Kernel for Plain<W> {
+    type Output = W::Output;
     #[inline(always)]
-    fn run<S: Simd>(self, _: S) -> R {
-        (self.0)()
+    fn run<S: Simd>(self, _: S) -> W::Output {
+        self.0.run()
     }
 }
 

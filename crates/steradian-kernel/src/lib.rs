@@ -49,4 +49,4 @@ mod triangle;
 pub use accelerator::Accelerator;
 pub use batch::{Hit, HitBatch, MISS, Ray, RayBatch};
 pub use geometry::{BuildError, COORDINATE_LIMIT, Cap, Geometry, Quadric};
-pub use instruction_set::InstructionSet;
+pub use instruction_set::{InstructionSet, Work};

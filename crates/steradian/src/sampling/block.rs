@@ -56,6 +56,27 @@ pub fn fill_block(keys: &[u64], indices: &[u32], block: u32, out: [&mut [f32]; D
     }
 }
 
+/// [`fill_block`] as work for an [`InstructionSet`](steradian_kernel::InstructionSet).
+pub struct FillBlock<'a> {
+    /// Keys of the streams.
+    pub keys: &'a [u64],
+    /// Indices of the samples.
+    pub indices: &'a [u32],
+    /// Number of the block.
+    pub block: u32,
+    /// One column a dimension.
+    pub out: [&'a mut [f32]; DIMENSIONS],
+}
+
+impl steradian_kernel::Work for FillBlock<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        fill_block(self.keys, self.indices, self.block, self.out);
+    }
+}
+
 #[inline(always)]
 fn to_unit(reversed: u32) -> f32 {
     // Below 2²⁴ the signed conversion is the same number and the one that vector units have.

@@ -38,9 +38,12 @@ pub(super) fn fill(tracer: &Tracer, identity: &Identity, block: u32, uniforms: &
         &mut c[..count],
         &mut d[..count],
     ];
-    tracer
-        .set
-        .run(|| block::fill_block(&identity.key, &identity.index, block, out));
+    tracer.set.run(block::FillBlock {
+        keys: &identity.key,
+        indices: &identity.index,
+        block,
+        out,
+    });
 }
 
 /// Directions of density cosθ/π: throughput × ρ, whatever the direction.

@@ -1,6 +1,6 @@
 //! One job of an image: some samples of every pixel of a tile, splatted into a buffer.
 
-use steradian_kernel::InstructionSet;
+use steradian_kernel::{InstructionSet, Work};
 
 use super::filter::{TAPS, Weights};
 use super::{CHANNELS, Film, Filter, PixelBatch, PixelSampler, TILE};
@@ -129,8 +129,12 @@ impl<'a, S: PixelSampler> Painter<'a, S> {
             &columns.indices[..count],
             &columns.corners[..],
         );
-        self.instructions
-            .run(|| draw(keys, indices, corners, numbers));
+        self.instructions.run(Draw {
+            keys,
+            indices,
+            corners,
+            numbers,
+        });
         let [x, y, u, v] = columns.numbers.each_ref().map(|column| &column[..count]);
         let batch = PixelBatch {
             x,
@@ -150,9 +154,13 @@ impl<'a, S: PixelSampler> Painter<'a, S> {
         check(job, x, y, values);
         let (tile, sums) = (job.tile, &mut job.sums[..]);
         match self.film.filter {
-            Filter::Gaussian => self
-                .instructions
-                .run(|| splat_gaussian(&self.weights, tile, [x, y], values, sums)),
+            Filter::Gaussian => self.instructions.run(Splat {
+                weights: &self.weights,
+                tile,
+                positions: [x, y],
+                values,
+                sums,
+            }),
             Filter::Box => splat_box(tile, values, sums),
         }
     }
@@ -185,17 +193,24 @@ impl<S: PixelSampler> Worker for Painter<'_, S> {
 }
 
 /// Block 0 of every sample, its first two dimensions moved to the film.
-#[inline(always)]
-fn draw(
-    keys: &[u64],
-    indices: &[u32],
-    corners: &[[f32; 2]],
-    [x, y, u, v]: [&mut [f32]; block::DIMENSIONS],
-) {
-    block::fill_block(keys, indices, 0, [&mut *x, &mut *y, u, v]);
-    for ((x, y), corner) in x.iter_mut().zip(y).zip(corners) {
-        *x += corner[0];
-        *y += corner[1];
+struct Draw<'a> {
+    keys: &'a [u64],
+    indices: &'a [u32],
+    corners: &'a [[f32; 2]],
+    numbers: [&'a mut [f32]; block::DIMENSIONS],
+}
+
+impl Work for Draw<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let [x, y, u, v] = self.numbers;
+        block::fill_block(self.keys, self.indices, 0, [&mut *x, &mut *y, u, v]);
+        for ((x, y), corner) in x.iter_mut().zip(y).zip(self.corners) {
+            *x += corner[0];
+            *y += corner[1];
+        }
     }
 }
 
@@ -208,31 +223,38 @@ fn check(job: &mut Job, x: &[f32], y: &[f32], values: &[[f32; CHANNELS]]) {
 }
 
 /// Adds every sample to the 4 × 4 pixels around it.
-#[inline(always)]
-fn splat_gaussian(
-    weights: &Weights,
+struct Splat<'a> {
+    weights: &'a Weights,
     tile: Tile,
-    [x, y]: [&[f32]; 2],
-    values: &[[f32; CHANNELS]],
-    sums: &mut [[f32; CHANNELS]],
-) {
-    // From the film to the buffer, measured between pixel centres; the first tap is one pixel below.
-    let offset = RIM as f32 - 0.5;
-    for ((x, y), value) in x.iter().zip(y).zip(values) {
-        let (column, row) = (x - tile.left as f32 + offset, y - tile.top as f32 + offset);
-        let (left, top) = (column as usize, row as usize);
-        let (across, down) = (
-            weights.at(column - left as f32),
-            weights.at(row - top as f32),
-        );
-        for (step, down) in down.into_iter().enumerate() {
-            let first = (top + step - 1) * BUFFER_SIDE as usize + left - 1;
-            let Some(pixels) = sums.get_mut(first..first + TAPS) else {
-                continue;
-            };
-            for (pixel, across) in pixels.iter_mut().zip(across) {
-                let weight = across * down;
-                *pixel = std::array::from_fn(|channel| pixel[channel] + weight * value[channel]);
+    positions: [&'a [f32]; 2],
+    values: &'a [[f32; CHANNELS]],
+    sums: &'a mut [[f32; CHANNELS]],
+}
+
+impl Work for Splat<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        // From the film to the buffer, measured between pixel centres; the first tap is one pixel below.
+        let offset = RIM as f32 - 0.5;
+        let [x, y] = self.positions;
+        for ((x, y), value) in x.iter().zip(y).zip(self.values) {
+            let column = x - self.tile.left as f32 + offset;
+            let row = y - self.tile.top as f32 + offset;
+            let (left, top) = (column as usize, row as usize);
+            let across = self.weights.at(column - left as f32);
+            let down = self.weights.at(row - top as f32);
+            for (step, down) in down.into_iter().enumerate() {
+                let first = (top + step - 1) * BUFFER_SIDE as usize + left - 1;
+                let Some(pixels) = self.sums.get_mut(first..first + TAPS) else {
+                    continue;
+                };
+                for (pixel, across) in pixels.iter_mut().zip(across) {
+                    let weight = across * down;
+                    *pixel =
+                        std::array::from_fn(|channel| pixel[channel] + weight * value[channel]);
+                }
             }
         }
     }
