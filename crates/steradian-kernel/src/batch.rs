@@ -117,6 +117,25 @@ impl RayBatch {
         }
     }
 
+    /// Replaces the ray of row `index`.
+    ///
+    /// # Panics
+    /// If `index` is not below [`len`](Self::len).
+    pub fn set(&mut self, index: usize, origin: [f32; 3], direction: [f32; 3], t_max: f32) {
+        let values = [
+            origin[0],
+            origin[1],
+            origin[2],
+            direction[0],
+            direction[1],
+            direction[2],
+            t_max,
+        ];
+        for (column, value) in self.columns_mut().into_iter().zip(values) {
+            column[index] = value;
+        }
+    }
+
     /// The ray of row `index`.
     ///
     /// # Panics

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::columns::{BATCH, Workspace};
+use super::columns::{BATCH, Flight, Workspace};
 use super::path::Tracer;
 use super::tables::Tables;
 use crate::estimation::film::{PixelBatch, PixelSampler};
@@ -44,18 +44,14 @@ impl<'a> CameraSampler<'a> {
     fn launch(&self, batch: &PixelBatch<'_>, paths: &mut Workspace) {
         for i in 0..batch.len() {
             let direction = self.direction(batch.x[i], batch.y[i]);
-            let flights = &mut paths.flights;
-            flights.rays.push(self.origin, direction, f32::INFINITY);
-            flights
-                .identity
-                .push(i as u32, batch.keys[i], batch.indices[i]);
-            flights
-                .throughput
-                .iter_mut()
-                .for_each(|lane| lane.push(1.0));
-            flights.pdf.push(f32::INFINITY);
-            flights.light_u.push(batch.lens[0][i]);
-            flights.light_v.push(batch.lens[1][i]);
+            paths.flights.push(Flight {
+                origin: self.origin,
+                direction,
+                throughput: [1.0; 4],
+                pdf: f32::INFINITY,
+                identity: (i as u32, batch.keys[i], batch.indices[i]),
+                light: [batch.lens[0][i], batch.lens[1][i]],
+            });
         }
     }
 }

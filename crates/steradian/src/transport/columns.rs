@@ -59,6 +59,46 @@ impl Flights {
     pub fn len(&self) -> usize {
         self.identity.len()
     }
+
+    /// Adds a flight.
+    pub fn push(&mut self, flight: Flight) {
+        self.rays
+            .push(flight.origin, flight.direction, f32::INFINITY);
+        self.identity
+            .push(flight.identity.0, flight.identity.1, flight.identity.2);
+        for (column, lane) in self.throughput.iter_mut().zip(flight.throughput) {
+            column.push(lane);
+        }
+        self.pdf.push(flight.pdf);
+        self.light_u.push(flight.light[0]);
+        self.light_v.push(flight.light[1]);
+    }
+
+    /// Room for `count` flights.
+    pub fn prepare(&mut self, count: usize) {
+        self.rays.resize(count);
+        for column in self.throughput.iter_mut().chain([&mut self.pdf]) {
+            column.resize(count, 0.0);
+        }
+    }
+
+    /// Takes over the identities of the vertices that are left, with new numbers for the next light.
+    pub fn inherit(&mut self, identity: &mut Identity, uniforms: &mut [Vec<f32>; 4]) {
+        std::mem::swap(&mut self.identity, identity);
+        std::mem::swap(&mut self.light_u, &mut uniforms[2]);
+        std::mem::swap(&mut self.light_v, &mut uniforms[3]);
+    }
+}
+
+/// One flight.
+pub(super) struct Flight {
+    pub origin: [f32; 3],
+    pub direction: [f32; 3],
+    pub throughput: [f32; MAX_LANES],
+    pub pdf: f32,
+    /// Slot, key and index.
+    pub identity: (u32, u64, u32),
+    pub light: [f32; 2],
 }
 
 /// Paths at a surface or a meter, facing `normal`.
@@ -148,22 +188,24 @@ impl Place {
     }
 }
 
-/// Light samples waiting for their shadow rays.
+/// One light sample a vertex, and its shadow ray; a vertex without a sample has an invalid ray and no gain.
 #[derive(Default)]
 pub(super) struct Shadows {
     pub rays: RayBatch,
     pub occluded: Vec<bool>,
-    pub slot: Vec<u32>,
-    pub group: Vec<u32>,
-    pub gain: [Vec<f32>; MAX_LANES],
+    /// Irradiance per unit of the emitter's power, weighted.
+    pub gain: Vec<f32>,
+    pub emitter: Vec<u32>,
 }
 
 impl Shadows {
-    pub fn clear(&mut self) {
+    /// Room for one sample a vertex, all without gain.
+    pub fn reset(&mut self, count: usize) {
         self.rays.clear();
-        self.slot.clear();
-        self.group.clear();
-        self.gain.iter_mut().for_each(Vec::clear);
+        self.rays.resize(count);
+        self.gain.clear();
+        self.gain.resize(count, 0.0);
+        self.emitter.resize(count, 0);
     }
 }
 

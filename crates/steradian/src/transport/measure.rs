@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 use std::f64::consts::PI;
 
 use super::MeasureOptions;
-use super::columns::{BATCH, Place, Vertices, Workspace};
+use super::columns::{BATCH, Flight, Place, Workspace};
 use super::meters::{FluxMeter, Meter, Prepared};
 use super::next_event::NextEvent;
 use super::path::Tracer;
@@ -138,7 +138,11 @@ impl<'a> Meters<'a> {
             DIRECTION_BLOCK,
             &mut paths.uniforms,
         );
-        leave_meters(paths, spherical);
+        if spherical {
+            leave_over_sphere(paths);
+        } else {
+            scatter::leave_diffusely(&self.tracer, paths, None);
+        }
         self.tracer.follow(paths, 0, candidates);
     }
 
@@ -325,36 +329,22 @@ impl Integrand for Meters<'_> {
     }
 }
 
-/// Sends a path out of every meter: cosθ/π about its normal, or uniformly over the sphere.
-fn leave_meters(paths: &mut Workspace, spherical: bool) {
-    let (vertices, flights): (&Vertices, _) = (&paths.vertices, &mut paths.flights);
-    flights.clear();
-    let per_response = if spherical {
-        4.0 * std::f32::consts::PI
-    } else {
-        std::f32::consts::PI
-    };
+/// Sends a path out of every meter of scalar irradiance, uniformly over the sphere.
+fn leave_over_sphere(paths: &mut Workspace) {
+    let vertices = &paths.vertices;
+    paths.flights.clear();
     for i in 0..vertices.len() {
-        let place = vertices.place(i);
-        let u = [paths.uniforms[0][i], paths.uniforms[1][i]];
-        let (direction, pdf) = if spherical {
-            (warp::sphere(u[0], u[1]), 0.25 * FRAC_1_PI)
-        } else {
-            let local = warp::cosine_hemisphere(u[0], u[1]);
-            (scatter::to_world(place.normal, local), local[2] * FRAC_1_PI)
-        };
-        let throughput = std::array::from_fn(|lane| vertices.response[lane][i] * per_response);
-        scatter::leave(
-            flights,
-            place,
-            direction,
-            throughput,
-            pdf,
-            &vertices.identity,
-            i,
-        );
-        flights.light_u.push(paths.uniforms[2][i]);
-        flights.light_v.push(paths.uniforms[3][i]);
+        let identity = &vertices.identity;
+        paths.flights.push(Flight {
+            origin: vertices.place(i).point,
+            direction: warp::sphere(paths.uniforms[0][i], paths.uniforms[1][i]),
+            throughput: std::array::from_fn(|lane| {
+                vertices.response[lane][i] * 4.0 * std::f32::consts::PI
+            }),
+            pdf: 0.25 * FRAC_1_PI,
+            identity: (identity.slot[i], identity.key[i], identity.index[i]),
+            light: [paths.uniforms[2][i], paths.uniforms[3][i]],
+        });
     }
 }
 

@@ -11,7 +11,9 @@ use std::f32::consts::{FRAC_1_PI, PI, TAU};
 
 use glam::Vec3;
 
-use super::columns::{Place, Workspace};
+use steradian_kernel::Work;
+
+use super::columns::{Place, Shadows, Vertices, Workspace};
 use super::interaction::Hit;
 use super::path::Tracer;
 use super::tables::{Candidates, Emitter, EmitterShape, Tables};
@@ -42,31 +44,94 @@ struct Towards {
 impl NextEvent<'_> {
     /// Samples one emitter at every vertex, with the light numbers that the vertices carry.
     pub fn gather(&self, workspace: &mut Workspace) {
-        let tables = self.tracer.tables;
-        if self.candidates.count == 0 || workspace.vertices.len() == 0 {
+        let count = workspace.vertices.len();
+        if self.candidates.count == 0 || count == 0 {
             return;
         }
-        workspace.shadows.clear();
-        for i in 0..workspace.vertices.len() {
-            let (emitter, u) = choose(tables, self.candidates, workspace.vertices.light_u[i]);
-            self.sample(workspace, i, emitter, [u, workspace.vertices.light_v[i]]);
+        workspace.shadows.reset(count);
+        let (vertices, shadows) = (&workspace.vertices, &mut workspace.shadows);
+        let numbers = [&vertices.light_u[..], &vertices.light_v[..]];
+        if self.candidates.count == 1 {
+            self.sample_all(0, vertices, numbers, shadows);
+        } else {
+            for i in 0..count {
+                let (emitter, u) = choose(self.tracer.tables, self.candidates, numbers[0][i]);
+                self.sample(i, emitter, [u, numbers[1][i]], vertices, shadows);
+            }
         }
         self.settle(workspace);
     }
 
-    /// Samples one given emitter at every vertex, with two columns of numbers.
+    /// Samples one given emitter at every vertex, with the last two columns of uniform numbers.
     pub fn gather_from(&self, workspace: &mut Workspace, emitter: usize) {
-        workspace.shadows.clear();
-        for i in 0..workspace.vertices.len() {
-            let u = [workspace.uniforms[2][i], workspace.uniforms[3][i]];
-            self.sample(workspace, i, emitter, u);
-        }
+        workspace.shadows.reset(workspace.vertices.len());
+        let numbers = [&workspace.uniforms[2][..], &workspace.uniforms[3][..]];
+        self.sample_all(
+            emitter,
+            &workspace.vertices,
+            numbers,
+            &mut workspace.shadows,
+        );
         self.settle(workspace);
     }
 
-    fn sample(&self, workspace: &mut Workspace, i: usize, number: usize, u: [f32; 2]) {
+    fn sample_all(
+        &self,
+        number: usize,
+        vertices: &Vertices,
+        numbers: [&[f32]; 2],
+        shadows: &mut Shadows,
+    ) {
+        let tables = self.tracer.tables;
+        let emitter = &tables.emitters[number];
+        if let (
+            EmitterShape::Parallelogram {
+                origin,
+                edges,
+                normal,
+                area,
+            },
+            false,
+        ) = (&emitter.shape, self.spherical)
+        {
+            shadows.emitter.fill(number as u32);
+            let (origin, edges, normal) = (*origin, *edges, *normal);
+            let (area, two_sided, probability) = (
+                *area,
+                emitter.two_sided,
+                tables.probability(self.candidates, number),
+            );
+            let panel = Panel {
+                origin,
+                edges,
+                normal,
+                area,
+                two_sided,
+                probability,
+            };
+            self.tracer.set.run(SamplePanel {
+                panel,
+                vertices,
+                numbers,
+                shadows,
+            });
+            return;
+        }
+        for i in 0..vertices.len() {
+            self.sample(i, number, [numbers[0][i], numbers[1][i]], vertices, shadows);
+        }
+    }
+
+    fn sample(
+        &self,
+        i: usize,
+        number: usize,
+        u: [f32; 2],
+        vertices: &Vertices,
+        shadows: &mut Shadows,
+    ) {
         let emitter = &self.tracer.tables.emitters[number];
-        let place = workspace.vertices.place(i);
+        let place = vertices.place(i);
         let Some(towards) = towards(self.tracer.tables, emitter, &place, u) else {
             return;
         };
@@ -81,20 +146,9 @@ impl NextEvent<'_> {
         }
         let probability = self.tracer.tables.probability(self.candidates, number);
         let ratio = own_density / (towards.density * probability);
-        let gain = foreshortening * towards.per_power / (probability * (1.0 + ratio * ratio));
-        self.push(workspace, i, emitter, &place, &towards, gain);
-    }
-
-    fn push(
-        &self,
-        workspace: &mut Workspace,
-        i: usize,
-        emitter: &Emitter,
-        place: &Place,
-        towards: &Towards,
-        gain: f32,
-    ) {
-        let (shadows, vertices) = (&mut workspace.shadows, &workspace.vertices);
+        shadows.gain[i] =
+            foreshortening * towards.per_power / (probability * (1.0 + ratio * ratio));
+        shadows.emitter[i] = number as u32;
         let start = Vec3::from_array(if self.spherical {
             place.point
         } else {
@@ -105,32 +159,30 @@ impl NextEvent<'_> {
         } else {
             (towards.end - start, 1.0)
         };
-        shadows.rays.push(start.into(), span.into(), reach);
-        shadows.slot.push(vertices.identity.slot[i]);
-        shadows.group.push(emitter.group);
-        for lane in 0..4 {
-            shadows.gain[lane].push(vertices.response[lane][i] * emitter.power[lane] * gain);
-        }
+        shadows.rays.set(i, start.into(), span.into(), reach);
     }
 
     /// Traces the shadow rays and adds what arrives.
     fn settle(&self, workspace: &mut Workspace) {
-        let shadows = &mut workspace.shadows;
-        self.tracer.tables.scene.surfaces().occluded(
-            &shadows.rays,
-            &mut shadows.occluded,
-            self.tracer.set,
-        );
-        for (i, occluded) in shadows.occluded.iter().enumerate() {
-            if !occluded {
-                let gain = &shadows.gain;
-                self.tracer.add(
-                    &mut workspace.gathered,
-                    shadows.group[i],
-                    shadows.slot[i],
-                    |lane| gain[lane][i],
-                );
+        let (shadows, vertices) = (&mut workspace.shadows, &workspace.vertices);
+        let tables = self.tracer.tables;
+        tables
+            .scene
+            .surfaces()
+            .occluded(&shadows.rays, &mut shadows.occluded, self.tracer.set);
+        for i in 0..vertices.len() {
+            let gain = shadows.gain[i];
+            if shadows.occluded[i] || gain == 0.0 {
+                continue;
             }
+            let emitter = &tables.emitters[shadows.emitter[i] as usize];
+            let response = &vertices.response;
+            self.tracer.add(
+                &mut workspace.gathered,
+                emitter.group,
+                vertices.identity.slot[i],
+                |lane| response[lane][i] * emitter.power[lane] * gain,
+            );
         }
     }
 
@@ -161,6 +213,105 @@ impl NextEvent<'_> {
                 | EmitterShape::Directional { .. } => 0.0,
             }
     }
+}
+
+/// A parallelogram as the vectorised loop reads it.
+#[derive(Copy, Clone)]
+struct Panel {
+    origin: [f32; 3],
+    edges: [[f32; 3]; 2],
+    normal: [f32; 3],
+    area: f32,
+    two_sided: bool,
+    probability: f32,
+}
+
+/// Samples one panel at every vertex: the same numbers as [`NextEvent::sample`], over columns.
+struct SamplePanel<'a> {
+    panel: Panel,
+    vertices: &'a Vertices,
+    numbers: [&'a [f32]; 2],
+    shadows: &'a mut Shadows,
+}
+
+impl Work for SamplePanel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (vertices, n) = (self.vertices, self.vertices.len());
+        let [u, v] = self.numbers.map(|column| &column[..n]);
+        let (px, py, pz) = (&vertices.x[..n], &vertices.y[..n], &vertices.z[..n]);
+        let (nx, ny, nz) = (
+            &vertices.normal_x[..n],
+            &vertices.normal_y[..n],
+            &vertices.normal_z[..n],
+        );
+        let clearance = &vertices.clearance[..n];
+        let rays = &mut self.shadows.rays;
+        let (ox, oy, oz) = (
+            &mut rays.origin_x[..n],
+            &mut rays.origin_y[..n],
+            &mut rays.origin_z[..n],
+        );
+        let (dx, dy, dz) = (
+            &mut rays.direction_x[..n],
+            &mut rays.direction_y[..n],
+            &mut rays.direction_z[..n],
+        );
+        let (t_max, gain) = (&mut rays.t_max[..n], &mut self.shadows.gain[..n]);
+        for i in 0..n {
+            let normal = [nx[i], ny[i], nz[i]];
+            let (end, weight) = self
+                .panel
+                .sample([px[i], py[i], pz[i]], normal, [u[i], v[i]]);
+            let valid = if weight > 0.0 { 1.0 } else { 0.0 };
+            (ox[i], oy[i], oz[i]) = (
+                px[i] + nx[i] * clearance[i],
+                py[i] + ny[i] * clearance[i],
+                pz[i] + nz[i] * clearance[i],
+            );
+            (dx[i], dy[i], dz[i]) = (
+                (end[0] - ox[i]) * valid,
+                (end[1] - oy[i]) * valid,
+                (end[2] - oz[i]) * valid,
+            );
+            t_max[i] = 1.0;
+            gain[i] = weight;
+        }
+    }
+}
+
+impl Panel {
+    /// End of the shadow ray, and the weighted irradiance per unit of radiance: 0 where there is none.
+    #[inline(always)]
+    fn sample(&self, vertex: [f32; 3], normal: [f32; 3], u: [f32; 2]) -> ([f32; 3], f32) {
+        let point: [f32; 3] = std::array::from_fn(|k| {
+            self.origin[k] + self.edges[0][k] * u[0] + self.edges[1][k] * u[1]
+        });
+        let span: [f32; 3] = std::array::from_fn(|k| point[k] - vertex[k]);
+        let squared = dot(span, span);
+        let inverse = 1.0 / squared.sqrt();
+        let cos_theta = dot(span, normal) * inverse;
+        let cos_light = -dot(span, self.normal) * inverse;
+        let seen = if self.two_sided {
+            cos_light.abs()
+        } else {
+            cos_light
+        };
+        let density = squared * self.probability / (self.area * seen);
+        let ratio = cos_theta * FRAC_1_PI / density;
+        let weight = cos_theta / (density * (1.0 + ratio * ratio));
+        let usable = seen > 0.0 && cos_theta > 0.0 && density > 0.0 && density < f32::INFINITY;
+        let off = clearance(point, self.area.sqrt()).copysign(cos_light);
+        let end = std::array::from_fn(|k| point[k] + self.normal[k] * off);
+        (end, if usable { weight } else { 0.0 })
+    }
+}
+
+#[inline(always)]
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// An emitter by power, and the number that is left to use.
@@ -290,7 +441,7 @@ fn by_area(vertex: Vec3, point: Vec3, normal: Vec3, area: f32, two_sided: bool) 
     };
     let density = squared / (area * seen);
     let usable = seen > 0.0 && density > 0.0 && density.is_finite();
-    let end = point + facing * clearance(point, area.sqrt());
+    let end = point + facing * clearance(point.into(), area.sqrt());
     usable.then_some(Towards {
         direction,
         end,
@@ -301,8 +452,9 @@ fn by_area(vertex: Vec3, point: Vec3, normal: Vec3, area: f32, two_sided: bool) 
 }
 
 /// How far off its surface a sampled point must be moved to clear it: γ(8) of its coordinates and the shape's size.
-fn clearance(point: Vec3, size: f32) -> f32 {
-    (point.abs().element_sum() + size) * (8.0 * 0.5 * f32::EPSILON) * 2.0
+#[inline(always)]
+fn clearance(point: [f32; 3], size: f32) -> f32 {
+    (point[0].abs() + point[1].abs() + point[2].abs() + size) * (8.0 * 0.5 * f32::EPSILON) * 2.0
 }
 
 fn triangle_point(
@@ -387,7 +539,7 @@ fn in_cone(
             .sqrt();
     let outwards = (vertex + direction * reach - center).normalize();
     let point = center + outwards * radius;
-    let end = point + outwards * clearance(point.abs() + center.abs(), radius);
+    let end = point + outwards * clearance((point.abs() + center.abs()).into(), radius);
     let density = 1.0 / (TAU * one_minus_cos_max);
     Towards {
         direction,

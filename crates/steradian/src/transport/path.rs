@@ -85,7 +85,6 @@ impl Tracer<'_> {
             spherical: false,
         }
         .gather(workspace);
-        workspace.flights.clear();
         scatter::reflect(self, workspace, segment);
     }
 

@@ -1,28 +1,48 @@
 //! Reflected directions: how paths leave their vertices.
+//!
+//! The loop over Lambertian vertices runs over columns and is vectorised; a path that roulette ends keeps its row, with
+//! an invalid ray and no throughput, until the next hits are collected.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use glam::Vec3;
+use steradian_kernel::Work;
 
-use super::columns::{Identity, Place, Workspace};
+use super::columns::{Flight, Flights, Identity, Vertices, Workspace};
 use super::path::Tracer;
 use crate::sampling::{block, hash, warp};
+use crate::spectrum::MAX_LANES;
 
 /// Sends every path on, or ends it by roulette; `segment` is the number of segments so far.
 pub(super) fn reflect(tracer: &Tracer, workspace: &mut Workspace, segment: u32) {
-    draw(tracer, workspace, segment);
-    lambertian(workspace, segment);
-    mirror(workspace, segment);
-}
-
-/// Block `segment` of random numbers: two for the direction, two for the light at the next vertex.
-fn draw(tracer: &Tracer, workspace: &mut Workspace, segment: u32) {
     fill(
         tracer,
         &workspace.vertices.identity,
         segment,
         &mut workspace.uniforms,
     );
+    leave_diffusely(tracer, workspace, Some(segment));
+    leave_mirrors(workspace, segment);
+}
+
+/// Sends a path out of every vertex with density cosθ/π; without `roulette` (a segment number) all of them survive.
+pub(super) fn leave_diffusely(tracer: &Tracer, workspace: &mut Workspace, roulette: Option<u32>) {
+    let (vertices, flights) = (&mut workspace.vertices, &mut workspace.flights);
+    let mut identity = std::mem::take(&mut vertices.identity);
+    let [u, v, ..] = &workspace.uniforms;
+    let (u, v) = (&u[..identity.len()], &v[..identity.len()]);
+    flights.prepare(identity.len());
+    tracer.set.run(LeaveDiffusely {
+        vertices,
+        identity: &identity,
+        u,
+        v,
+        roulette,
+        flights,
+    });
+    flights.inherit(&mut identity, &mut workspace.uniforms);
+    vertices.identity = identity;
+    vertices.identity.clear();
 }
 
 /// Fills the four columns with one block of random numbers.
@@ -47,98 +67,139 @@ pub(super) fn fill(tracer: &Tracer, identity: &Identity, block: u32, uniforms: &
 }
 
 /// Directions of density cosθ/π: throughput × ρ, whatever the direction.
-fn lambertian(workspace: &mut Workspace, segment: u32) {
-    let (vertices, flights) = (&workspace.vertices, &mut workspace.flights);
-    for i in 0..vertices.len() {
-        let response: [f32; 4] = std::array::from_fn(|lane| vertices.response[lane][i] * PI);
-        let Some(throughput) = survive(response, &vertices.identity, i, segment) else {
-            continue;
-        };
-        let place = vertices.place(i);
-        let local = warp::cosine_hemisphere(workspace.uniforms[0][i], workspace.uniforms[1][i]);
-        let direction = to_world(place.normal, local);
-        leave(
-            flights,
-            place,
-            direction,
-            throughput,
-            local[2] * FRAC_1_PI,
-            &vertices.identity,
-            i,
-        );
-        flights.light_u.push(workspace.uniforms[2][i]);
-        flights.light_v.push(workspace.uniforms[3][i]);
+struct LeaveDiffusely<'a> {
+    vertices: &'a Vertices,
+    identity: &'a Identity,
+    u: &'a [f32],
+    v: &'a [f32],
+    roulette: Option<u32>,
+    flights: &'a mut Flights,
+}
+
+impl Work for LeaveDiffusely<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let survival = self.survival();
+        self.leave(&survival);
     }
 }
 
-fn mirror(workspace: &mut Workspace, segment: u32) {
+impl LeaveDiffusely<'_> {
+    /// 1/q of the survivors, 0 of the others, with q = min(1, greatest lane of the throughput).
+    #[inline(always)]
+    fn survival(&self) -> [f32; super::columns::BATCH] {
+        let mut survival = [1.0; super::columns::BATCH];
+        let Some(segment) = self.roulette else {
+            return survival;
+        };
+        let n = self.u.len();
+        let [a, b, c, d] = self.vertices.response.each_ref().map(|lane| &lane[..n]);
+        let (keys, indices) = (&self.identity.key[..n], &self.identity.index[..n]);
+        for i in 0..n {
+            let greatest = a[i].max(b[i]).max(c[i].max(d[i])) * PI;
+            let q = greatest.min(1.0);
+            let survives = roulette_number(keys[i], indices[i], segment) < q;
+            survival[i] = if survives { 1.0 / q } else { 0.0 };
+        }
+        survival
+    }
+
+    #[inline(always)]
+    fn leave(self, survival: &[f32]) {
+        let n = self.u.len();
+        let vertices = self.vertices;
+        let survival = &survival[..n];
+        for (lane, out) in self.flights.throughput.iter_mut().enumerate() {
+            let (response, out) = (&vertices.response[lane][..n], &mut out[..n]);
+            for i in 0..n {
+                out[i] = response[i] * PI * survival[i];
+            }
+        }
+        let (u, v) = (self.u, &self.v[..n]);
+        let (px, py, pz) = (&vertices.x[..n], &vertices.y[..n], &vertices.z[..n]);
+        let (nx, ny, nz) = (
+            &vertices.normal_x[..n],
+            &vertices.normal_y[..n],
+            &vertices.normal_z[..n],
+        );
+        let clearance = &vertices.clearance[..n];
+        let rays = &mut self.flights.rays;
+        let (ox, oy, oz) = (
+            &mut rays.origin_x[..n],
+            &mut rays.origin_y[..n],
+            &mut rays.origin_z[..n],
+        );
+        let (dx, dy, dz) = (
+            &mut rays.direction_x[..n],
+            &mut rays.direction_y[..n],
+            &mut rays.direction_z[..n],
+        );
+        let (t_max, pdf) = (&mut rays.t_max[..n], &mut self.flights.pdf[..n]);
+        for i in 0..n {
+            let local = warp::cosine_hemisphere(u[i], v[i]);
+            let direction = to_world([nx[i], ny[i], nz[i]], local);
+            let alive = if survival[i] > 0.0 { 1.0 } else { 0.0 };
+            (ox[i], oy[i], oz[i]) = (
+                px[i] + nx[i] * clearance[i],
+                py[i] + ny[i] * clearance[i],
+                pz[i] + nz[i] * clearance[i],
+            );
+            (dx[i], dy[i], dz[i]) = (
+                direction[0] * alive,
+                direction[1] * alive,
+                direction[2] * alive,
+            );
+            t_max[i] = f32::INFINITY;
+            pdf[i] = local[2] * FRAC_1_PI;
+        }
+    }
+}
+
+fn leave_mirrors(workspace: &mut Workspace, segment: u32) {
     let (mirrors, flights) = (&workspace.mirrors, &mut workspace.flights);
     for i in 0..mirrors.len() {
-        let response = std::array::from_fn(|lane| mirrors.response[lane][i]);
-        let Some(throughput) = survive(response, &mirrors.identity, i, segment) else {
+        let response: [f32; MAX_LANES] = std::array::from_fn(|lane| mirrors.response[lane][i]);
+        let identity = (
+            mirrors.identity.slot[i],
+            mirrors.identity.key[i],
+            mirrors.identity.index[i],
+        );
+        let q = response
+            .iter()
+            .fold(0.0_f32, |greatest, lane| greatest.max(*lane))
+            .min(1.0);
+        if roulette_number(identity.1, identity.2, segment) >= q {
             continue;
-        };
+        }
         let place = mirrors.place(i);
         let viewer = Vec3::from_array(workspace.viewer.each_ref().map(|column| column[i]));
         let normal = Vec3::from_array(place.normal);
-        let direction = (2.0 * normal.dot(viewer) * normal - viewer).normalize();
-        leave(
-            flights,
-            place,
-            direction.into(),
-            throughput,
-            f32::INFINITY,
-            &mirrors.identity,
-            i,
+        let direction = (2.0 * normal.dot(viewer) * normal - viewer)
+            .normalize()
+            .into();
+        let (throughput, light) = (
+            response.map(|lane| lane / q),
+            [mirrors.light_u[i], mirrors.light_v[i]],
         );
-        flights.light_u.push(mirrors.light_u[i]);
-        flights.light_v.push(mirrors.light_v[i]);
+        flights.push(Flight {
+            origin: place.cleared(),
+            direction,
+            throughput,
+            pdf: f32::INFINITY,
+            identity,
+            light,
+        });
     }
-}
-
-/// Adds a flight that leaves `place`.
-#[inline(always)]
-pub(super) fn leave(
-    flights: &mut super::columns::Flights,
-    place: Place,
-    direction: [f32; 3],
-    throughput: [f32; 4],
-    pdf: f32,
-    identity: &Identity,
-    i: usize,
-) {
-    flights.rays.push(place.cleared(), direction, f32::INFINITY);
-    flights
-        .identity
-        .push(identity.slot[i], identity.key[i], identity.index[i]);
-    for (column, lane) in flights.throughput.iter_mut().zip(throughput) {
-        column.push(lane);
-    }
-    flights.pdf.push(pdf);
-}
-
-/// Roulette: survives with q = min(1, greatest lane), throughput/q.
-#[inline(always)]
-fn survive(throughput: [f32; 4], identity: &Identity, i: usize, segment: u32) -> Option<[f32; 4]> {
-    let q = throughput
-        .iter()
-        .fold(0.0_f32, |greatest, lane| greatest.max(*lane));
-    if q >= 1.0 {
-        return Some(throughput);
-    }
-    if roulette_number(identity.key[i], identity.index[i], segment) >= q {
-        return None;
-    }
-    Some(throughput.map(|lane| lane / q))
 }
 
 /// A uniform number in [0, 1) that depends on the path and the segment only.
 #[inline(always)]
 fn roulette_number(key: u64, index: u32, segment: u32) -> f32 {
-    let word = hash::mix_64(
-        key ^ u64::from(index) << 32 ^ u64::from(segment).wrapping_mul(0x9e37_79b9_7f4a_7c15),
-    );
-    (word >> 40) as f32 * (1.0 / (1 << 24) as f32)
+    let path = hash::mix_32((key as u32) ^ hash::mix_32((key >> 32) as u32 ^ index));
+    let word = hash::mix_32(path ^ segment.wrapping_mul(0x9e37_79b9));
+    (word >> 8) as i32 as f32 * (1.0 / (1 << 24) as f32)
 }
 
 /// A local direction in the frame of `normal` (Duff et al., *Building an orthonormal basis, revisited*, JCGT 2017).
