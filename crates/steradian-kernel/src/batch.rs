@@ -140,6 +140,7 @@ impl RayBatch {
     ///
     /// # Panics
     /// If `index` is not below [`len`](Self::len).
+    #[inline(always)]
     pub fn ray(&self, index: usize) -> Ray {
         Ray {
             origin: [
@@ -245,6 +246,7 @@ impl HitBatch {
         }
     }
 
+    #[inline(always)]
     pub(crate) fn set(&mut self, index: usize, hit: Hit) {
         self.t[index] = hit.t;
         self.u[index] = hit.u;

@@ -160,7 +160,8 @@ impl<F: Fn(u32) -> [[f32; 3]; 3]> Collapse<'_, F> {
         self.tree
     }
 
-    /// The binary nodes that become the children of `node`, the largest first: it is the likeliest to stop a shadow ray.
+    /// The binary nodes that become the children of `node`, in the order in which a shadow ray tries them: leaves
+    /// before nodes, because they cost least, and the largest first, because it is the likeliest to be hit.
     fn cut(&self, node: usize) -> Vec<usize> {
         let mut cut = Vec::with_capacity(WIDTH);
         match self.binary.children(node) {
@@ -169,8 +170,15 @@ impl<F: Fn(u32) -> [[f32; 3]; 3]> Collapse<'_, F> {
             }
             _ => cut.push(node),
         }
-        cut.sort_by(|&a, &b| self.costs.areas[b].total_cmp(&self.costs.areas[a]));
+        cut.sort_by(|&a, &b| {
+            let by_kind = self.becomes_leaf(b).cmp(&self.becomes_leaf(a));
+            by_kind.then(self.costs.areas[b].total_cmp(&self.costs.areas[a]))
+        });
         cut
+    }
+
+    fn becomes_leaf(&self, node: usize) -> bool {
+        self.binary.children(node).is_none() || self.costs.is_leaf(node)
     }
 
     fn split(&self, children: [usize; 2], slots: usize, cut: &mut Vec<usize>) {
@@ -187,7 +195,7 @@ impl<F: Fn(u32) -> [[f32; 3]; 3]> Collapse<'_, F> {
     }
 
     fn child(&mut self, node: usize) -> Child {
-        if self.binary.children(node).is_some() && !self.costs.is_leaf(node) {
+        if !self.becomes_leaf(node) {
             self.tree.nodes.push(Node::EMPTY);
             return Child::node(self.tree.nodes.len() - 1);
         }

@@ -138,7 +138,17 @@ mod x86 {
 
 #[cfg(test)]
 mod tests {
-    use super::InstructionSet;
+    use super::{InstructionSet, Work};
+
+    struct Sum<'a>(&'a [i32]);
+
+    impl Work for Sum<'_> {
+        type Output = i32;
+        #[inline(always)]
+        fn run(self) -> i32 {
+            self.0.iter().sum()
+        }
+    }
 
     #[test]
     fn every_set_runs_even_where_the_machine_lacks_it() {
@@ -147,7 +157,7 @@ mod tests {
             InstructionSet::Avx2,
             InstructionSet::Avx512,
         ] {
-            assert_eq!(set.run(|| (1..=10).sum::<i32>()), 55);
+            assert_eq!(set.run(Sum(&[1, 2, 3])), 6);
         }
     }
 
