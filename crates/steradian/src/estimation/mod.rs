@@ -37,6 +37,7 @@ mod plan;
 mod progress;
 mod replicates;
 mod schedule;
+mod sensors;
 mod shards;
 mod stopping;
 pub mod student;

@@ -17,9 +17,10 @@ use std::time::Duration;
 use super::account::{Account, Sampling, Work};
 use super::cells::{Cells, half_width_factor};
 use super::crew::Crew;
-use super::plan::{FLOOR, LONGEST_REPLICATE};
+use super::plan::LONGEST_REPLICATE;
 use super::replicates::share_largest;
 use super::schedule::{Schedule, Task, round_up};
+use super::sensors::{Sensors, relative_error};
 use super::{EstimationError, Integrand, Observer, Phase, Plan, Replicates};
 use crate::sampling::hash::{combine, mix_64};
 
@@ -100,32 +101,6 @@ struct Session<'a, I: Integrand> {
     sensors: Sensors,
     crew: Crew<'a, Sampling<'a, I>>,
     factor: f64,
-}
-
-/// Which streams share a tolerance floor.
-struct Sensors {
-    of_stream: Vec<usize>,
-    streams: Vec<u64>,
-}
-
-impl Sensors {
-    fn new<I: Integrand>(integrand: &I) -> Self {
-        let of_stream: Vec<_> = (0..integrand.streams())
-            .map(|stream| integrand.sensor_of(stream))
-            .collect();
-        let mut streams = vec![0; of_stream.iter().max().map_or(0, |last| last + 1)];
-        of_stream.iter().for_each(|&sensor| streams[sensor] += 1);
-        Self { of_stream, streams }
-    }
-
-    /// Sums over the streams of each sensor.
-    fn sum(&self, term: impl Fn(usize) -> f64) -> Vec<f64> {
-        let mut sums = vec![0.0; self.streams.len()];
-        for (stream, &sensor) in self.of_stream.iter().enumerate() {
-            sums[sensor] += term(stream);
-        }
-        sums
-    }
 }
 
 /// What the pilot has decided.
@@ -374,33 +349,6 @@ fn whole_runs(count: u64) -> u64 {
     } else {
         count / 1024 * 1024
     }
-}
-
-fn relative_error<I: Integrand>(
-    integrand: &I,
-    sensors: &Sensors,
-    cells: &Cells,
-    factor: f64,
-) -> Option<f64> {
-    let summaries: Vec<_> = (0..cells.streams())
-        .map(|stream| cells.summary(stream))
-        .collect();
-    let value = |stream: usize| summaries[stream].mean + integrand.offset(stream);
-    let sums = sensors.sum(value);
-    let relative = |stream: usize| {
-        let sensor = sensors.of_stream[stream];
-        let scale = value(stream)
-            .abs()
-            .max(FLOOR * (sums[sensor] / sensors.streams[sensor] as f64).abs());
-        factor * summaries[stream].variance.sqrt() / scale
-    };
-    let worst = (0..cells.streams())
-        .map(relative)
-        .fold(
-            0.0_f64,
-            |worst, error| if worst >= error { worst } else { error },
-        );
-    worst.is_finite().then_some(worst)
 }
 
 #[cfg(test)]

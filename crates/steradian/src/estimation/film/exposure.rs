@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CHANNELS, Film};
-use crate::estimation::EstimationError;
+use super::{CHANNELS, Film, TILE};
+use crate::estimation::cells::mean_and_variance;
+use crate::estimation::student::two_sided_quantile;
+use crate::estimation::{Estimate, EstimationError};
 
 /// Values of one pass, row by row from the top left.
 pub(super) type PassImage = Vec<[f32; CHANNELS]>;
@@ -20,6 +22,8 @@ pub struct Exposure {
     means: Vec<[f64; CHANNELS]>,
     /// Sums of squared deviations from the mean.
     squares: Vec<[f64; CHANNELS]>,
+    /// Mean of each 32 × 32 tile of the image, by pass and then row by row.
+    tiles: Vec<[f64; CHANNELS]>,
     /// The passes themselves, by number, where they are to be merged with others.
     kept: Vec<(u32, PassImage)>,
 }
@@ -36,7 +40,22 @@ impl Exposure {
             converged: false,
             means: blank.clone(),
             squares: blank,
+            tiles: Vec::new(),
             kept: Vec::new(),
+        }
+    }
+
+    /// The same image before its first pass.
+    fn blank(&self) -> Self {
+        let blank = vec![[0.0; CHANNELS]; self.means.len()];
+        Self {
+            means: blank.clone(),
+            squares: blank,
+            done: 0,
+            samples: 0,
+            tiles: Vec::new(),
+            kept: Vec::new(),
+            ..*self
         }
     }
 
@@ -89,10 +108,72 @@ impl Exposure {
         })
     }
 
+    /// Columns and rows of the 32 × 32 tiles that the image is cut into; those at the right and bottom may be smaller.
+    #[must_use]
+    pub fn tile_counts(&self) -> [u32; 2] {
+        [self.width.div_ceil(TILE), self.height.div_ceil(TILE)]
+    }
+
+    /// The mean over a tile of a weighted sum of channels. Unlike the errors of single pixels put together, its error knows that
+    /// neighbouring pixels share samples.
+    ///
+    /// # Panics
+    /// If there is no such tile.
+    #[must_use]
+    pub fn tile(
+        &self,
+        column: u32,
+        row: u32,
+        weights: &[f64; CHANNELS],
+        confidence: f64,
+    ) -> Estimate {
+        let [columns, rows] = self.tile_counts();
+        assert!(column < columns && row < rows, "the tile is on the image");
+        let passes = self
+            .tiles
+            .chunks((columns * rows) as usize)
+            .map(|pass| &pass[(row * columns + column) as usize]);
+        let means = passes.map(|mean| {
+            mean.iter()
+                .zip(weights)
+                .map(|(mean, weight)| mean * weight)
+                .sum::<f64>()
+        });
+        let (value, variance) = mean_and_variance(means);
+        let factor = if self.done > 1 {
+            two_sided_quantile(confidence, self.done - 1)
+        } else {
+            f64::INFINITY
+        };
+        Estimate::sampled(value, variance.sqrt(), factor, self.converged)
+    }
+
+    /// Mean of a tile of one pass.
+    fn tile_mean(&self, pass: &PassImage, column: u32, row: u32) -> [f64; CHANNELS] {
+        let span = |number: u32, size: u32| {
+            (number * TILE) as usize..((number + 1) * TILE).min(size) as usize
+        };
+        let (columns, rows) = (span(column, self.width), span(row, self.height));
+        let count = (columns.len() * rows.len()) as f64;
+        let mut sum = [0.0; CHANNELS];
+        for pixel in rows.flat_map(|row| &pass[row * self.width as usize..][columns.clone()]) {
+            sum = std::array::from_fn(|channel| sum[channel] + f64::from(pixel[channel]));
+        }
+        sum.map(|sum| sum / count)
+    }
+
     /// Adds a pass by the recurrence of Welford (1962, *Note on a method for calculating corrected sums of squares*), which does
     /// not cancel where passes hardly differ.
     pub(super) fn add(&mut self, pass: &PassImage) {
         self.done += 1;
+        let [columns, rows] = self.tile_counts();
+        for row in 0..rows {
+            self.tiles.extend(
+                (0..columns)
+                    .map(|column| self.tile_mean(pass, column, row))
+                    .collect::<Vec<_>>(),
+            );
+        }
         let count = f64::from(self.done);
         for ((mean, square), value) in self.means.iter_mut().zip(&mut self.squares).zip(pass) {
             for channel in 0..CHANNELS {
@@ -132,15 +213,7 @@ pub fn merge_exposures(shards: Vec<Exposure>) -> Result<Exposure, EstimationErro
     if shards.iter().any(|shard| !shard.converged) {
         return fault("one of them was interrupted");
     }
-    let blank = vec![[0.0; CHANNELS]; first.means.len()];
-    let mut merged = Exposure {
-        means: blank.clone(),
-        squares: blank,
-        done: 0,
-        samples: 0,
-        kept: Vec::new(),
-        ..*first
-    };
+    let mut merged = first.blank();
     merged.samples = shards.iter().map(|shard| shard.samples).sum();
     let mut passes: Vec<_> = shards.into_iter().flat_map(|shard| shard.kept).collect();
     passes.sort_by_key(|(number, _)| *number);

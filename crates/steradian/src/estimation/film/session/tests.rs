@@ -73,6 +73,35 @@ fn every_pixel_is_unbiased_up_to_the_border() {
     }
 }
 
+/// 6 tiles × 100 seeds: 600 nearly independent intervals of probability .95; bound 5 σ, false alarm 1e-6.
+#[test]
+fn intervals_of_tiles_hold_the_exact_mean() {
+    let mut covered = 0.0;
+    for seed in 0..100 {
+        let plan = Plan {
+            seed,
+            ..plan(Stopping::at_samples(16))
+        };
+        let image = image(Filter::Gaussian, &plan);
+        assert_eq!(image.tile_counts(), [3, 2]);
+        for (column, row) in [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)] {
+            let middle = |number: u32, size: u32| {
+                f64::from(32 * number + (32 * number + 32).min(size)) / 2.0
+            };
+            let exact = middle(column, 70) + 2.0 * middle(row, 45);
+            let [low, high] = image
+                .tile(column, row, &[0.0, 1.0, 0.0, 0.0], 0.95)
+                .interval
+                .unwrap();
+            covered += f64::from(u8::from((low..=high).contains(&exact)));
+        }
+    }
+    assert!(
+        (covered / 600.0 - 0.95).abs() < 5.0 * (0.95_f64 * 0.05 / 600.0).sqrt(),
+        "{covered}"
+    );
+}
+
 #[test]
 fn bits_do_not_depend_on_threads_or_shards() {
     for filter in [Filter::Gaussian, Filter::Box] {
