@@ -10,11 +10,13 @@ mod interaction;
 mod measure;
 mod meters;
 mod next_event;
+mod panel;
 mod path;
 pub mod reflection;
 mod run;
 mod scatter;
 mod tables;
+mod towards;
 mod unsampled;
 
 pub use run::{MeasureOptions, Picture, RenderOptions, SimulationError, measure, render};
