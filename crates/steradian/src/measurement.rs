@@ -3,6 +3,8 @@
 //! A result keeps the replicate means of every column, so that sums, shares and dimmed groups keep their covariances
 //! and so that shards can be put together bit for bit. Only [`Estimate`]s leave it.
 
+mod merge;
+
 use serde::{Deserialize, Serialize};
 
 use crate::estimation::{Estimate, Replicates};

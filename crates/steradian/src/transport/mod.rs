@@ -8,15 +8,14 @@ mod columns;
 mod exact;
 mod interaction;
 mod measure;
+mod merge;
 mod meters;
 mod next_event;
-mod panel;
 mod path;
 pub mod reflection;
 mod run;
 mod scatter;
 mod tables;
-mod towards;
 mod unsampled;
 
 pub use run::{MeasureOptions, Picture, RenderOptions, SimulationError, measure, render};
