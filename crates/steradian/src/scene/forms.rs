@@ -181,6 +181,17 @@ pub(super) fn copies(
     steps
 }
 
+impl GeometryDescription {
+    /// The form of this geometry by itself.
+    ///
+    /// # Errors
+    /// If there is no such form: a polygon that is not plane, a radius that is not positive …
+    pub fn form(&self, transform: &Transform) -> Result<Form, Problem> {
+        let shaped = form(self, transform).map_err(|message| Problem::of(Part::Scene, message))?;
+        Ok(shaped.form)
+    }
+}
+
 /// The form of a geometry, also for sensors' surfaces.
 pub(super) fn virtual_form(
     geometry: &GeometryDescription,

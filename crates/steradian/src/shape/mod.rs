@@ -13,6 +13,7 @@ mod disc;
 mod form;
 mod mesh;
 mod parallelogram;
+pub mod quadrature;
 mod sphere;
 mod surfaces;
 
