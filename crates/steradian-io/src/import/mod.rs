@@ -1,3 +1,4 @@
 //! Readers of other programs' files.
 
 pub mod obj;
+pub mod points;

@@ -1,65 +1,89 @@
-//! A picture in false colours: one quantity by colour on a linear scale from zero, with a legend that states the unit.
+//! A picture in false colours: one quantity by colour on a logarithmic scale, with a legend that states the unit.
 //!
-//! The scale ends at the round number (1, 2 or 5 · 10ⁿ) at or above the 99.5th percentile, so that a lamp in the picture
-//! does not darken the room; what lies above has the end's colour. Colours are those of viridis, which order the same
-//! way in print and for most colour-blind readers.
+//! The scale begins and ends at round numbers (1, 2 or 5 · 10ⁿ): it ends at or above the largest value, and begins at or
+//! below the first percentile but not more than four decades down, so that a lamp and the room it lights are both seen.
+//! Values beyond the ends have the ends' colours. Colours are those of viridis, which order the same way in print and for
+//! most colour-blind readers.
 
 use super::glyphs;
 use super::image::RadianceImage;
 use super::png::Pixels;
 
-const PERCENTILE: f64 = 0.995;
-const TICKS: usize = 5;
+const LOWEST_PERCENTILE: f64 = 0.01;
+const MOST_DECADES: f64 = 1e4;
+const STEPS: [f64; 3] = [1.0, 2.0, 5.0];
 const BACKGROUND: [u8; 3] = [24; 3];
 const INK: [u8; 3] = [235; 3];
 /// Smallest height that a legend with its ticks fits into.
-const LEGEND_HEIGHT: usize = 90;
+const LEGEND_HEIGHT: usize = 160;
 
-/// A linear scale from zero to a round number.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A logarithmic scale between round numbers.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
-    top: f64,
+    ticks: Vec<f64>,
 }
 
 impl Scale {
-    /// The scale that suits these values.
+    /// The scale that suits these values; 0.1 to 1 where nothing is positive.
     pub fn of(values: &[f64]) -> Self {
         let mut sorted: Vec<f64> = values
             .iter()
             .copied()
-            .filter(|value| value.is_finite())
+            .filter(|value| *value > 0.0 && value.is_finite())
             .collect();
         sorted.sort_by(f64::total_cmp);
-        let at = (PERCENTILE * sorted.len().saturating_sub(1) as f64).ceil() as usize;
+        let lowest = sorted
+            .get((LOWEST_PERCENTILE * sorted.len() as f64) as usize)
+            .copied()
+            .unwrap_or(0.1);
+        let largest = sorted.last().copied().unwrap_or(1.0);
         Self {
-            top: round_up(sorted.get(at).copied().unwrap_or(0.0)),
+            ticks: round_numbers(lowest.max(largest / MOST_DECADES), largest),
         }
     }
 
-    /// The value at the end of the scale.
-    pub fn top(&self) -> f64 {
-        self.top
+    /// Both ends.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.ticks[0], self.ticks[self.ticks.len() - 1]]
+    }
+
+    /// Where a value lies between the ends, 0 to 1.
+    fn position(&self, value: f64) -> f64 {
+        let [bottom, top] = self.ends();
+        if value <= bottom {
+            return 0.0;
+        }
+        (libm::log(value / bottom) / libm::log(top / bottom)).min(1.0)
     }
 
     /// The colour of a value.
     pub fn colour(&self, value: f64) -> [u8; 3] {
-        let colour = colorous::VIRIDIS.eval_continuous((value / self.top).clamp(0.0, 1.0));
-        [colour.r, colour.g, colour.b]
+        colour_at(self.position(value))
     }
 }
 
-/// The least of 1, 2 and 5 · 10ⁿ that is at least `value`; 1 for nothing positive.
-fn round_up(value: f64) -> f64 {
-    if value <= 0.0 {
-        return 1.0;
-    }
-    let decade = libm::pow(10.0, libm::floor(libm::log10(value)));
-    let steps = [1.0, 2.0, 5.0, 10.0];
-    let fitting = steps
-        .into_iter()
-        .map(|step| step * decade)
-        .find(|top| *top >= value * (1.0 - 1e-12));
-    fitting.unwrap_or(10.0 * decade)
+fn colour_at(position: f64) -> [u8; 3] {
+    let colour = colorous::VIRIDIS.eval_continuous(position);
+    [colour.r, colour.g, colour.b]
+}
+
+/// The numbers 1, 2 and 5 · 10ⁿ from at or below `low` to at or above `high`, at least two.
+fn round_numbers(low: f64, high: f64) -> Vec<f64> {
+    let first = libm::floor(libm::log10(low)) as i32 - 1;
+    let last = libm::floor(libm::log10(high)) as i32 + 1;
+    let all = (first..=last)
+        .flat_map(|decade| STEPS.map(|step| step * libm::pow(10.0, f64::from(decade))));
+    let all: Vec<f64> = all.collect();
+    let below = |limit: f64| {
+        all.iter()
+            .rposition(|number| *number <= limit * (1.0 + 1e-12))
+            .unwrap_or(0)
+    };
+    let end = all
+        .iter()
+        .position(|number| *number >= high * (1.0 - 1e-12))
+        .unwrap_or(all.len() - 1);
+    all[below(low).min(end - 1)..=end].to_vec()
 }
 
 /// The picture with its legend to the right.
@@ -86,8 +110,7 @@ impl Legend {
     fn new(picture: &RadianceImage, scale: &Scale) -> Self {
         let zoom = (picture.height / 300).max(1);
         let unit = picture.facts.quantity.unit.clone();
-        let label = |tick: usize| label(scale.top * tick as f64 / TICKS as f64);
-        let labels: Vec<String> = (0..=TICKS).map(label).collect();
+        let labels: Vec<String> = scale.ticks.iter().copied().map(label).collect();
         let widest = labels
             .iter()
             .map(|label| glyphs::width(label, zoom))
@@ -105,31 +128,27 @@ impl Legend {
     fn draw(&self, pixels: &mut Pixels, scale: &Scale, left: usize) {
         let zoom = self.zoom;
         let (left, top) = (left + 7 * zoom, 20 * zoom);
-        let bar = pixels.height - top - 8 * zoom;
+        let last = pixels.height - top - 8 * zoom - 1;
         glyphs::draw(pixels, &self.unit, (left, 6 * zoom), zoom, INK);
-        for offset in 0..bar {
-            let colour = scale.colour(scale.top * (bar - 1 - offset) as f64 / (bar - 1) as f64);
+        for offset in 0..=last {
+            let colour = colour_at((last - offset) as f64 / last as f64);
             (0..10 * zoom).for_each(|x| pixels.set(left + x, top + offset, colour));
         }
-        for (tick, label) in self.labels.iter().enumerate() {
-            let y = top + (bar - 1) * (TICKS - tick) / TICKS;
+        for (tick, label) in scale.ticks.iter().zip(&self.labels) {
+            let y = top + ((1.0 - scale.position(*tick)) * last as f64).round() as usize;
             (10 * zoom..13 * zoom).for_each(|x| pixels.set(left + x, y, INK));
             glyphs::draw(pixels, label, (left + 15 * zoom, y - 3 * zoom), zoom, INK);
         }
     }
 }
 
-/// A tick's number, short, without the noise of binary fractions.
+/// A round number, short, without the noise of binary fractions.
 fn label(value: f64) -> String {
-    let rounded = |text: String| text.trim_end_matches('0').trim_end_matches('.').to_owned();
-    match value {
-        0.0 => "0".to_owned(),
-        v if !(1e-3..1e5).contains(&v) => {
-            let text = format!("{v:.1e}");
-            text.replace(".0e", "e")
-        }
-        v => rounded(format!("{v:.4}")),
+    if (1e-3..1e5).contains(&value) {
+        let text = format!("{value:.4}");
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
     }
+    format!("{value:.0e}")
 }
 
 #[cfg(test)]
@@ -137,31 +156,27 @@ mod tests {
     use super::super::image::tests::picture;
     use super::*;
 
-    #[test]
-    fn scales_end_at_round_numbers() {
-        for (value, top) in [
-            (0.7, 1.0),
-            (1.0, 1.0),
-            (1.2, 2.0),
-            (430.0, 500.0),
-            (0.0021, 0.005),
-            (7e8, 1e9),
-            (0.0, 1.0),
-        ] {
-            assert!((round_up(value) / top - 1.0).abs() < 1e-12, "{value}");
+    fn assert_ends(values: &[f64], expected: [f64; 2]) {
+        for (end, expected) in Scale::of(values).ends().iter().zip(expected) {
+            assert!(
+                (end / expected - 1.0).abs() < 1e-12,
+                "{values:?}: {end} instead of {expected}"
+            );
         }
     }
 
     #[test]
-    fn a_lamp_does_not_set_the_scale() {
-        let mut values = vec![3.0; 1000];
-        values[7] = 1e6;
-        assert_eq!(Scale::of(&values).top(), 5.0);
+    fn scales_end_at_round_numbers() {
+        assert_ends(&[0.3, 7.0], [0.2, 10.0]);
+        assert_ends(&[1.0, 1.0], [0.5, 1.0]);
+        assert_ends(&[3.0, 3.0], [2.0, 5.0]);
+        assert_ends(&[0.0, 430.0, 1e-9], [0.02, 500.0]);
+        assert_ends(&[0.0], [0.1, 1.0]);
     }
 
     #[test]
     fn colours_grow_lighter_along_the_scale() {
-        let scale = Scale { top: 10.0 };
+        let scale = Scale::of(&[1.0, 1000.0]);
         let lightness = |value: f64| {
             scale
                 .colour(value)
@@ -169,14 +184,22 @@ mod tests {
                 .map(|part| u32::from(*part))
                 .sum::<u32>()
         };
-        assert!((0..10).all(|step| lightness(f64::from(step)) < lightness(f64::from(step + 1))));
-        assert_eq!(scale.colour(11.0), scale.colour(10.0));
+        let values = [1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
+        assert!(
+            values
+                .windows(2)
+                .all(|pair| lightness(pair[0]) < lightness(pair[1]))
+        );
+        assert_eq!(
+            (scale.colour(2000.0), scale.colour(0.0)),
+            (scale.colour(1000.0), scale.colour(1.0))
+        );
     }
 
     #[test]
     fn labels_are_short() {
-        let labels = [0.0, 0.4, 250.0, 1e5, 2.5e-4, 0.30000000000000004].map(label);
-        assert_eq!(labels, ["0", "0.4", "250", "1e5", "2.5e-4", "0.3"]);
+        let labels = [0.2, 250.0, 1e5, 2e-4, 0.1 + 0.2].map(label);
+        assert_eq!(labels, ["0.2", "250", "1e5", "2e-4", "0.3"]);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A radiance picture with its standard errors, as the picture formats take it.
 
 use serde::Serialize;
+use steradian::transport::Picture;
 
 use super::error::ReportError;
 
@@ -43,8 +44,10 @@ pub struct ImageFacts {
     pub luminous_efficacy: Option<f64>,
     /// Seed of the run.
     pub seed: u64,
-    /// Samples of a pixel, all passes together.
-    pub samples_per_pixel: u64,
+    /// Longest path in segments, if it was limited.
+    pub max_depth: Option<u32>,
+    /// Samples of all pixels and passes together.
+    pub samples: u64,
     /// Independent passes that the standard error comes from.
     pub passes: u32,
     /// True when the run was not stopped early and met its tolerance.
@@ -53,6 +56,62 @@ pub struct ImageFacts {
     pub unsampled: Vec<String>,
     /// Version of Steradian.
     pub version: String,
+}
+
+impl ImageFacts {
+    fn new(picture: &Picture, scene_hash: &str, version: &str) -> Self {
+        Self {
+            scene: picture.scene_name.clone(),
+            scene_hash: scene_hash.to_owned(),
+            camera: picture.camera.clone(),
+            unit: LANE_UNIT.to_owned(),
+            quantity: PixelQuantity::of(picture),
+            luminous_efficacy: picture.luminous_efficacy,
+            seed: picture.seed,
+            max_depth: picture.max_depth,
+            samples: picture.exposure.samples(),
+            passes: picture.exposure.passes(),
+            converged: picture.exposure.converged(),
+            unsampled: picture.unsampled.clone(),
+            version: version.to_owned(),
+        }
+    }
+}
+
+impl PixelQuantity {
+    /// What the camera's last readout shows: the photometric one where there are two.
+    fn of(picture: &Picture) -> Self {
+        match picture.readouts.last() {
+            Some(readout) => Self {
+                name: readout.name.clone(),
+                unit: readout.unit.clone(),
+                weights: readout.weights.clone(),
+            },
+            None => Self {
+                name: "radiance".to_owned(),
+                unit: LANE_UNIT.to_owned(),
+                weights: vec![1.0; picture.lanes.len()],
+            },
+        }
+    }
+}
+
+/// A lane of a picture in single precision.
+fn channel(picture: &Picture, lane: usize, name: &str) -> Channel {
+    Channel {
+        name: name.to_owned(),
+        values: picture
+            .exposure
+            .values()
+            .iter()
+            .map(|lanes| lanes[lane] as f32)
+            .collect(),
+        std_errors: picture
+            .exposure
+            .std_errors()
+            .map(|lanes| lanes[lane] as f32)
+            .collect(),
+    }
 }
 
 /// A radiance picture.
@@ -68,7 +127,27 @@ pub struct RadianceImage {
     pub facts: ImageFacts,
 }
 
+/// Unit of the lanes of every picture.
+const LANE_UNIT: &str = "W/(m2 sr)";
+
 impl RadianceImage {
+    /// The picture that a run made of a scene with this hash.
+    pub fn new(picture: &Picture, scene_hash: &str, version: &str) -> Self {
+        let [width, height] = picture.exposure.size().map(|pixels| pixels as usize);
+        let channels = picture
+            .lanes
+            .iter()
+            .enumerate()
+            .map(|(lane, name)| channel(picture, lane, name))
+            .collect();
+        Self {
+            width,
+            height,
+            channels,
+            facts: ImageFacts::new(picture, scene_hash, version),
+        }
+    }
+
     /// True when the lanes are red, green and blue.
     pub fn is_rgb(&self) -> bool {
         let names = self.channels.iter().map(|channel| channel.name.as_str());
@@ -149,7 +228,8 @@ pub(super) mod tests {
             },
             luminous_efficacy: Some(179.0),
             seed: 7,
-            samples_per_pixel: 64,
+            max_depth: None,
+            samples: 64,
             passes: 4,
             converged: true,
             unsampled: Vec::new(),

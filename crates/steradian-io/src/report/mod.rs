@@ -4,18 +4,27 @@
 //! one step, so that a run that stops half-way leaves no half-written output. The same result gives the same bytes.
 
 pub mod atomic;
+pub mod columns;
+pub mod csv;
 pub mod error;
 pub mod exr;
 pub mod false_colour;
 pub mod glyphs;
 pub mod hdr;
 pub mod image;
+pub mod json;
+pub mod numbers;
 pub mod pfm;
+pub mod picture_file;
 pub mod png;
+pub mod run;
 pub mod shard;
+pub mod table;
 pub mod tone;
 
 pub use atomic::write_atomically;
 pub use error::ReportError;
 pub use image::{Channel, ImageFacts, PixelQuantity, RadianceImage};
+pub use picture_file::{Look, PictureFormat};
+pub use run::Run;
 pub use shard::Shard;

@@ -57,10 +57,8 @@ pub fn encode_tone_mapped(picture: &RadianceImage, stops: f64) -> Result<Vec<u8>
 pub fn encode_false_colour(picture: &RadianceImage) -> Result<Vec<u8>, ReportError> {
     let scale = false_colour::Scale::of(&picture.quantity());
     let unit = &picture.facts.quantity.unit;
-    let note = format!(
-        "false colours: viridis from 0 to {} {unit}, linear",
-        scale.top()
-    );
+    let [bottom, top] = scale.ends();
+    let note = format!("false colours: viridis from {bottom:e} to {top:e} {unit}, logarithmic");
     encode(&false_colour::draw(picture, &scale), picture, note)
 }
 

@@ -1,0 +1,179 @@
+//! Readings as one JSON object, `"schema": "steradian.result/1"`.
+//!
+//! Beside each reading's `value`, `std_error` and `confidence_interval` it holds `replicate_means`: for each point, light
+//! group and lane the mean of every independent replicate (or the exact value), in the radiant unit of the sensor's
+//! quantity. With them lamps can be dimmed or switched afterwards: weigh and add the means of each replicate, and the
+//! spread of the sums gives their error, covariances included. What is unknown is `null`.
+
+use serde_json::{Map, Value, json};
+use steradian::estimation::Estimate;
+use steradian::measurement::{Measurements, PointRecord, Reading, SensorRecord};
+
+use super::run::{Run, SAMPLING_ERROR_ONLY};
+
+/// Name and version of the format.
+pub const SCHEMA: &str = "steradian.result/1";
+
+/// The object, on indented lines.
+pub fn encode(run: &Run<'_>) -> String {
+    format!("{:#}\n", value(run))
+}
+
+/// The object.
+pub fn value(run: &Run<'_>) -> Value {
+    let measurements = run.measurements;
+    let readings = measurements.readings();
+    json!({
+        "schema": SCHEMA,
+        "version": run.version,
+        "scene": measurements.scene_name,
+        "scene_hash": run.scene_hash,
+        "seed": measurements.seed,
+        "confidence": measurements.confidence,
+        "luminous_efficacy": measurements.luminous_efficacy,
+        "max_depth": measurements.max_depth,
+        "complete": measurements.complete(),
+        "converged": measurements.converged(),
+        "unsampled": measurements.unsampled,
+        "warnings": measurements.warnings,
+        "note": SAMPLING_ERROR_ONLY,
+        "readings": readings.iter().map(reading).collect::<Vec<_>>(),
+        "replicate_means": replicate_means(measurements),
+    })
+}
+
+fn reading(reading: &Reading) -> Value {
+    let mut object = Map::new();
+    object.insert("sensor".to_owned(), json!(reading.sensor));
+    object.insert("index".to_owned(), json!(reading.index));
+    object.insert("position".to_owned(), json!(reading.position));
+    object.insert("normal".to_owned(), json!(reading.normal));
+    object.insert("sits_on".to_owned(), json!(reading.sits_on));
+    object.insert("quantity".to_owned(), json!(reading.quantity));
+    object.insert("unit".to_owned(), json!(reading.unit));
+    object.extend(estimate(&reading.estimate));
+    object.insert("samples".to_owned(), json!(reading.samples));
+    object.insert("channels".to_owned(), parts(&reading.channels));
+    object.insert("groups".to_owned(), parts(&reading.groups));
+    Value::Object(object)
+}
+
+/// The keys of an estimate, for any report that has one.
+pub fn estimate(estimate: &Estimate) -> Map<String, Value> {
+    let mut object = Map::new();
+    object.insert("value".to_owned(), json!(estimate.value));
+    object.insert("std_error".to_owned(), json!(estimate.std_error));
+    object.insert("confidence_interval".to_owned(), json!(estimate.interval));
+    object.insert("upper_bound".to_owned(), json!(estimate.upper_bound));
+    object.insert("method".to_owned(), json!(estimate.method));
+    object.insert("converged".to_owned(), json!(estimate.converged));
+    object
+}
+
+fn parts(parts: &[(String, Estimate)]) -> Value {
+    let part = |(name, part): &(String, Estimate)| {
+        (
+            name.clone(),
+            json!({ "value": part.value, "std_error": part.std_error }),
+        )
+    };
+    Value::Object(parts.iter().map(part).collect())
+}
+
+fn replicate_means(measurements: &Measurements) -> Vec<Value> {
+    let points = |sensor: &SensorRecord| -> Vec<Value> {
+        sensor
+            .points
+            .iter()
+            .map(|point| point_means(measurements, sensor, point))
+            .collect()
+    };
+    measurements.sensors.iter().flat_map(points).collect()
+}
+
+fn point_means(measurements: &Measurements, sensor: &SensorRecord, point: &PointRecord) -> Value {
+    let lanes = measurements.lanes.len();
+    let group = |(number, name): (usize, &String)| {
+        let lane = |at: usize| {
+            (
+                measurements.lanes[at].name.clone(),
+                column(point, number * lanes + at),
+            )
+        };
+        (name.clone(), Value::Object((0..lanes).map(lane).collect()))
+    };
+    let groups: Map<String, Value> = measurements.groups.iter().enumerate().map(group).collect();
+    json!({ "sensor": sensor.name, "index": point.index, "groups": groups })
+}
+
+/// The exact value plus the mean of each replicate; one number where nothing was sampled.
+fn column(point: &PointRecord, column: usize) -> Value {
+    let exact = point.exact[column];
+    let Some(replicates) = &point.replicates else {
+        return json!([exact]);
+    };
+    let mut weights = vec![0.0; replicates.columns()];
+    weights[column] = 1.0;
+    replicates
+        .means(&weights)
+        .map(|mean| mean + exact)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::run::tests::{measurements, run};
+    use super::*;
+
+    fn object() -> Value {
+        serde_json::from_str(&encode(&run(&measurements()))).unwrap()
+    }
+
+    #[test]
+    fn facts_of_the_run_stand_beside_the_readings() {
+        let object = object();
+        assert_eq!(object["schema"], SCHEMA);
+        assert_eq!(
+            (&object["complete"], &object["seed"]),
+            (&json!(false), &json!(3))
+        );
+        assert_eq!(object["unsampled"][0], "point lights seen in mirrors");
+        assert_eq!(
+            (&object["luminous_efficacy"], &object["scene_hash"]),
+            (&json!(179.0), &json!("0123456789abcdef0123"))
+        );
+    }
+
+    #[test]
+    fn a_reading_has_its_parts() {
+        let readings = &object()["readings"];
+        assert_eq!(
+            (&readings[0]["method"], &readings[0]["value"]),
+            (&json!("closed-form"), &json!(100.0))
+        );
+        assert_eq!(
+            readings[0]["channels"]["nir"],
+            json!({ "value": 20.0, "std_error": 0.0 })
+        );
+        assert_eq!(
+            (&readings[1]["method"], &readings[1]["samples"]),
+            (&json!("estimate"), &json!(40))
+        );
+        assert_eq!(
+            readings[1]["groups"]["window"],
+            json!({ "value": 0.0, "std_error": null })
+        );
+        assert_eq!(readings[1]["sits_on"]["shape"], "desk");
+    }
+
+    #[test]
+    fn replicate_means_stand_by_group_and_lane() {
+        let object = object();
+        let means = &object["replicate_means"][1]["groups"]["lamp"]["visible"];
+        assert_eq!(means, &json!([1.0, 2.0, 3.0, 4.0]));
+        assert_eq!(
+            object["replicate_means"][0]["groups"]["lamp"]["visible"],
+            json!([80.0])
+        );
+    }
+}

@@ -1,0 +1,193 @@
+//! Readings for people: one line a reading, then what has to be known about them.
+
+use std::fmt::Write;
+
+use steradian::estimation::Estimate;
+use steradian::measurement::{Measurements, Reading};
+
+use super::columns::Columns;
+use super::numbers::{estimate, exact};
+use super::run::{Run, SAMPLING_ERROR_ONLY};
+
+/// The table with its notes.
+pub fn encode(run: &Run<'_>) -> String {
+    let readings = run.measurements.readings();
+    let mut text = String::new();
+    if !run.measurements.scene_name.is_empty() {
+        text.push_str(&run.measurements.scene_name);
+        text.push_str("\n\n");
+    }
+    text.push_str(&columns(run.measurements, &readings).to_string());
+    text.push('\n');
+    for note in notes(run, &readings) {
+        text.push_str(&note);
+        text.push('\n');
+    }
+    text
+}
+
+fn columns(measurements: &Measurements, readings: &[Reading]) -> Columns {
+    let percent = exact(100.0 * measurements.confidence);
+    let parts = Parts {
+        channels: measurements.lanes.len() > 1,
+        groups: measurements.groups.len() > 1,
+    };
+    let mut headings = ["sensor", "#", "at (m)", "quantity"]
+        .map(str::to_owned)
+        .to_vec();
+    headings.push(format!("value ({percent} %)"));
+    headings.extend(
+        measurements
+            .lanes
+            .iter()
+            .filter(|_| parts.channels)
+            .map(|lane| lane.name.clone()),
+    );
+    headings.extend(measurements.groups.iter().filter(|_| parts.groups).cloned());
+    let mut columns = Columns::new(headings).right_aligned(1);
+    for reading in readings {
+        columns.row(cells(reading, parts));
+    }
+    columns
+}
+
+/// Which parts of a reading have columns: those of which there are several.
+#[derive(Clone, Copy)]
+struct Parts {
+    channels: bool,
+    groups: bool,
+}
+
+fn cells(reading: &Reading, shown: Parts) -> Vec<String> {
+    let mark = if reading.estimate.converged {
+        ""
+    } else {
+        " (not converged)"
+    };
+    let value = with_unit(&reading.estimate, &reading.unit);
+    let mut cells = vec![
+        reading.sensor.clone(),
+        reading.index.to_string(),
+        reading.position.map_or_else(|| "surface".to_owned(), place),
+        reading.quantity.clone(),
+        format!("{value}{mark}"),
+    ];
+    let channels = reading.channels.iter().filter(|_| shown.channels);
+    let groups = reading.groups.iter().filter(|_| shown.groups);
+    cells.extend(channels.chain(groups).map(|(_, part)| estimate(part)));
+    cells
+}
+
+/// `503.2 ± 2.2 lx`, `100 W/m2 (exact)`: the unit stands before a remark.
+fn with_unit(value: &Estimate, unit: &str) -> String {
+    let text = estimate(value);
+    match text
+        .split_once(" (")
+        .filter(|(_, remark)| remark.ends_with(')'))
+    {
+        Some((number, remark)) => format!("{number} {unit} ({remark}"),
+        None => format!("{text} {unit}"),
+    }
+}
+
+fn place(position: [f64; 3]) -> String {
+    position
+        .map(|coordinate| super::numbers::significant(coordinate, 6))
+        .join(" ")
+}
+
+fn notes(run: &Run<'_>, readings: &[Reading]) -> Vec<String> {
+    let measurements = run.measurements;
+    let mut notes = vec![SAMPLING_ERROR_ONLY.to_owned(), identity(run)];
+    let missed = readings
+        .iter()
+        .filter(|reading| !reading.estimate.converged)
+        .count();
+    if missed > 0 {
+        notes.push(format!(
+            "Not converged: {missed} of {} readings.",
+            readings.len()
+        ));
+    }
+    let missing =
+        |class: &String| format!("Not sampled, so values are too low by what it carries: {class}");
+    notes.extend(measurements.unsampled.iter().map(missing));
+    notes.extend(
+        measurements
+            .warnings
+            .iter()
+            .map(|warning| format!("Warning: {warning}")),
+    );
+    notes
+}
+
+/// The numbers that a repetition needs.
+fn identity(run: &Run<'_>) -> String {
+    let measurements = run.measurements;
+    let mut text = String::new();
+    if let Some(efficacy) = measurements.luminous_efficacy {
+        let _ = write!(text, "K = {} lm/W. ", exact(efficacy));
+    }
+    if let Some(depth) = measurements.max_depth {
+        let _ = write!(text, "Paths limited to {depth} segments. ");
+    }
+    if let Some((part, of)) = measurements.shard {
+        let _ = write!(text, "Part {part} of {of}. ");
+    }
+    let hash = run.scene_hash.get(..16).unwrap_or(run.scene_hash);
+    let _ = write!(
+        text,
+        "Seed {}. Scene {hash}. Steradian {}.",
+        measurements.seed, run.version
+    );
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::run::tests::{measurements, run};
+    use super::*;
+    use steradian::estimation::Method;
+
+    #[test]
+    fn exact_and_sampled_readings_stand_in_columns() {
+        let measurements = measurements();
+        let text = encode(&run(&measurements));
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], "A, \"desk\"");
+        for heading in ["sensor", "value (95 %)", "visible", "nir", "lamp", "window"] {
+            assert!(lines[2].contains(heading), "{text}");
+        }
+        assert!(lines[3].contains("100 W/m2 (exact)  80 (exact)"), "{text}");
+        // t(3) √(5/12) = 2.05, and no light was seen in the other lane and group.
+        assert!(
+            lines[4].contains("2.5 ± 2.1 W/m2") && lines[4].contains("(nothing seen)"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn the_notes_tell_what_a_reader_must_know() {
+        let measurements = measurements();
+        let text = encode(&run(&measurements));
+        for note in [
+            SAMPLING_ERROR_ONLY,
+            "K = 179 lm/W. Seed 3. Scene 0123456789abcdef. Steradian 1.2.3.",
+            "Not sampled, so values are too low by what it carries: point lights seen in mirrors",
+            "Warning: a warning",
+        ] {
+            assert!(text.contains(note), "{note} is not in\n{text}");
+        }
+    }
+
+    #[test]
+    fn a_unit_stands_before_a_remark() {
+        assert_eq!(with_unit(&Estimate::closed_form(2.0), "lx"), "2 lx (exact)");
+        let tiny = Estimate {
+            interval: Some([1e-9, 3e-9]),
+            method: Method::Estimate,
+            ..Estimate::closed_form(2e-9)
+        };
+        assert_eq!(with_unit(&tiny, "lx"), "(2.0 ± 1.0)e-9 lx");
+    }
+}
