@@ -1,2 +1,48 @@
-//! The steradian command.
-fn main() {}
+//! The `steradian` command: reads a scene, asks the library, and writes what it says.
+
+mod area;
+mod args;
+mod direction;
+mod engine;
+mod help;
+mod inspect;
+mod interrupt;
+mod load;
+mod measure;
+mod merge;
+mod output;
+mod part;
+mod picture;
+mod points;
+mod progress;
+mod render;
+mod result;
+mod status;
+mod tolerance;
+mod values;
+mod verify;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use status::{Failure, Outcome};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    status::exit_code(run(arguments.command))
+}
+
+fn run(command: Command) -> Result<Outcome, Failure> {
+    match command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Measure(arguments) => measure::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
+        Command::Area(arguments) => area::run(&arguments),
+        Command::Direction(arguments) => direction::run(&arguments),
+        Command::Help(arguments) => help::run(&arguments),
+    }
+}

@@ -1,0 +1,49 @@
+//! The command line as a whole; each subcommand's own arguments are in its file.
+
+use clap::{Parser, Subcommand};
+
+use crate::{area, direction, help, inspect, measure, merge, render, verify};
+
+/// Light in SI units: radiance, irradiance and flux in a scene, each number with its unit and an error bar.
+///
+/// A scene is a TOML file that states shapes, materials, lights and sensors with their units. `measure` prints what the
+/// sensors read, `render` makes a picture. Every number carries the error of its sampling, and a run stops when the error
+/// is small enough.
+#[derive(Debug, Parser)]
+#[command(name = "steradian", version, max_term_width = 110, disable_help_subcommand = true, after_long_help = EXAMPLES)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  steradian measure scenes/point-light.toml
+  steradian render scenes/cornell-box.toml -o cornell.png
+  steradian help scene          every key of a scene file
+  steradian help measure        the same as steradian measure --help
+
+Results go to standard output, progress and messages to standard error.
+Exit status: 0 fine; 1 it ran, but a tolerance was not met, a check failed or light was left out; 2 error.";
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Make a picture: the radiance that a camera of the scene receives
+    Render(render::Arguments),
+    /// Read the sensors of a scene: irradiance, flux, radiance, with error bars
+    Measure(measure::Arguments),
+    /// List what a scene holds: areas, reflectances, the flux of its lights, sensors
+    Inspect(inspect::Arguments),
+    /// Check this program on scenes with closed-form answers
+    Verify(verify::Arguments),
+    /// Put the parts of a run together that `--shard` computed
+    Merge(merge::Arguments),
+    /// Area of a shape, in closed form and by quadrature
+    Area(area::Arguments),
+    /// Convert a direction between angles and a vector
+    Direction(direction::Arguments),
+    /// Explain a subcommand, or `scene`: the keys of a scene file
+    Help(help::Arguments),
+}

@@ -1,0 +1,165 @@
+//! `steradian measure`: what the sensors of a scene read.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+use steradian::estimation::{Plan, Stopping};
+use steradian::scene::Scene;
+use steradian::scene::description::{Receivers, SceneDescription, SensorDescription, SensorKind};
+use steradian::transport::{MeasureOptions, measure};
+
+use crate::engine::Engine;
+use crate::load;
+use crate::part::{self, Kind};
+use crate::progress::Watch;
+use crate::result::{Format, Readings};
+use crate::status::{Failure, Outcome, remark};
+use crate::{points, tolerance, values};
+
+/// Half-width of the 95 % interval relative to the value, where no other rule is given.
+const DEFAULT_REL_ERROR: f64 = 0.01;
+
+/// Read the sensors of a scene: irradiance, flux, radiance, with error bars
+///
+/// Each reading is printed with the half-width of its 95 % confidence interval, or as exact where a closed form was used.
+/// The run stops when every interval is narrow enough: by default ± 1 % of the value, where readings below 1 % of their
+/// sensor's mean need not be known any better than one at that level.
+///
+/// Lights given in watts give readings in W/m2, W, W/(m2 sr); lights given in lumens or candela give lx, lm, cd/m2.
+#[derive(Args, Debug)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Read this sensor only; may be given several times
+    #[arg(long, value_name = "NAME")]
+    sensor: Vec<String>,
+    /// Read irradiance at the points of a CSV file instead of the scene's sensors: columns x,y,z in metres, nx,ny,nz
+    #[arg(long, value_name = "FILE", conflicts_with = "sensor")]
+    points: Option<PathBuf>,
+    /// How to print [default: by the ending of the output's name, else table]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    stop: Stop,
+    #[command(flatten)]
+    engine: Engine,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  steradian measure scenes/point-light.toml
+  steradian measure scenes/closed-room.toml --rel-error 0.2% --format json -o room.json
+  steradian measure scenes/lamps-equal.toml --time 10s --format csv
+  steradian measure scenes/furnace.toml --samples 65536 --shard 1/3 -o part1";
+
+/// When to stop.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Stopping")]
+struct Stop {
+    /// Stop when each 95 % interval is within this part of the value [default: 1%]
+    #[arg(long, value_name = "RATIO", value_parser = values::ratio)]
+    rel_error: Option<f64>,
+    /// Stop when each 95 % interval is within this quantity, in the readings' unit: 5lx, 0.1W/m2 …
+    #[arg(long, value_name = "QUANTITY")]
+    abs_error: Option<String>,
+    /// Stop after this time: 30s, 5min …
+    #[arg(long, value_name = "TIME", value_parser = values::duration)]
+    time: Option<Duration>,
+    /// Take this many samples a reading, whatever the error
+    #[arg(long, value_name = "NUMBER", value_parser = values::count, conflicts_with_all = ["rel_error", "abs_error", "time"])]
+    samples: Option<u64>,
+}
+
+/// Measures and writes the result, or the part of it that a shard is.
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let loaded = load::scene_with(&arguments.scene, |description| {
+        add_points(arguments, description)
+    })?;
+    let options = options(arguments, &loaded.scene)?;
+    let mut watch = Watch::new()?;
+    let measurements = measure(&loaded.scene, &options, &mut watch)?;
+    if watch.finish() {
+        remark("stopped by Ctrl-C: these are the readings so far");
+    }
+    let (readings, file) = (
+        Readings {
+            measurements,
+            scene_hash: loaded.hash,
+        },
+        arguments.output.as_deref(),
+    );
+    match arguments.engine.shard {
+        Some(_) => part::write(
+            Kind::Readings,
+            &readings.measurements,
+            &readings.scene_hash,
+            file,
+        ),
+        None => readings.write(arguments.format, file),
+    }
+}
+
+fn options(arguments: &Arguments, scene: &Scene) -> Result<MeasureOptions, Failure> {
+    let engine = &arguments.engine;
+    let plan = Plan {
+        seed: engine.seed,
+        stop: stopping(arguments, scene)?,
+        threads: engine.threads.count(),
+        shard: engine.shard,
+        ..Plan::default()
+    };
+    Ok(MeasureOptions {
+        plan,
+        max_depth: engine.max_depth,
+        instruction_set: engine.instruction_set()?,
+        sensors: chosen(arguments),
+    })
+}
+
+/// Names of the sensors to read; none is all.
+fn chosen(arguments: &Arguments) -> Option<Vec<String>> {
+    if arguments.points.is_some() {
+        return Some(vec![points::SENSOR.to_owned()]);
+    }
+    (!arguments.sensor.is_empty()).then(|| arguments.sensor.clone())
+}
+
+fn stopping(arguments: &Arguments, scene: &Scene) -> Result<Stopping, Failure> {
+    let Stop {
+        rel_error,
+        abs_error,
+        time,
+        samples,
+    } = &arguments.stop;
+    let unstated =
+        rel_error.is_none() && abs_error.is_none() && time.is_none() && samples.is_none();
+    let absolute = |text: &String| tolerance::parse(text, scene, chosen(arguments).as_deref());
+    Ok(Stopping {
+        rel_error: rel_error.or(unstated.then_some(DEFAULT_REL_ERROR)),
+        abs_error: abs_error.as_ref().map(absolute).transpose()?,
+        time: *time,
+        samples: *samples,
+    })
+}
+
+/// Adds a sensor for `--points`.
+fn add_points(arguments: &Arguments, description: &mut SceneDescription) -> Result<(), Failure> {
+    let Some(path) = &arguments.points else {
+        return Ok(());
+    };
+    let kind = SensorKind::Irradiance(Receivers::Points(points::read(path)?));
+    description
+        .sensors
+        .retain(|sensor| sensor.name != points::SENSOR);
+    description.sensors.push(SensorDescription {
+        name: points::SENSOR.to_owned(),
+        response: None,
+        kind,
+    });
+    Ok(())
+}

@@ -1,0 +1,23 @@
+//! Where results go.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use steradian_io::report::write_atomically;
+
+use crate::status::Failure;
+
+/// Writes to the file, whole or not at all, or to standard output if there is none.
+pub fn write(bytes: &[u8], file: Option<&Path>) -> Result<(), Failure> {
+    let Some(path) = file else {
+        let mut stdout = io::stdout().lock();
+        stdout.write_all(bytes)?;
+        return Ok(stdout.flush()?);
+    };
+    Ok(write_atomically(path, bytes)?)
+}
+
+/// Prints to standard output.
+pub fn print(text: &str) -> Result<(), Failure> {
+    write(text.as_bytes(), None)
+}
