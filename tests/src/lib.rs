@@ -1,1 +1,3 @@
-//! Tests.
+//! What the tests of the whole share: running the program.
+
+pub mod command;

@@ -3,7 +3,6 @@
 //! Four integrands with closed forms: smooth, discontinuous, a rare event (p = 1e-3), and a hidden firefly (10 % of the energy at p = 1e-4).
 //! Each draws from several blocks, as a path does, so that the net alone does not integrate it.
 //! The full count over 2000 seeds and more runs by `cargo test -p steradian-tests --release --test coverage -- --ignored`.
-#![allow(clippy::print_stdout, reason = "the long tests are run for the figures they print")]
 
 use steradian::estimation::{
     Estimate, Integrand, Plan, SampleBatch, Silent, Stopping, Tally, estimate,

@@ -1,0 +1,10 @@
+//! The command line: what it prints, how it ends, and that it gives the same bytes every time.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on says where")]
+
+mod errors;
+mod help;
+mod instruments;
+mod interruption;
+mod pictures;
+mod results;
+mod same_bytes;
