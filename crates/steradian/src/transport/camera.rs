@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::columns::{BATCH, Flight, Workspace};
 use super::path::Tracer;
+use super::profile::Stage;
 use super::tables::Tables;
 use crate::estimation::film::{PixelBatch, PixelSampler};
 use crate::sensor::Camera;
@@ -64,14 +65,18 @@ impl PixelSampler for CameraSampler<'_> {
     }
 
     fn sample(&self, batch: &PixelBatch<'_>, paths: &mut Workspace, out: &mut [[f32; 4]]) {
+        paths.watch.start();
+        paths.watch.times.paths += batch.len() as u64;
         self.tracer.begin(paths, batch.len());
         self.launch(batch, paths);
+        paths.watch.lap(Stage::Camera);
         self.tracer.follow(paths, 0, self.tables().for_surfaces());
         for (slot, lanes) in out.iter_mut().enumerate() {
             for lane in 0..self.tables().lanes {
                 lanes[lane] = paths.gathered[lane * BATCH + slot];
             }
         }
+        paths.watch.lap(Stage::Camera);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use steradian_kernel::{HitBatch, RayBatch};
 
+use super::profile::StopWatch;
 use crate::spectrum::MAX_LANES;
 
 /// Paths traced together.
@@ -222,4 +223,5 @@ pub struct Workspace {
     pub(super) uniforms: [Vec<f32>; 4],
     /// Gathered light: column × slot.
     pub(super) gathered: Vec<f32>,
+    pub(super) watch: StopWatch,
 }

@@ -11,12 +11,16 @@ mod measure;
 mod merge;
 mod meters;
 mod next_event;
+mod panel;
 mod path;
+mod profile;
 pub mod reflection;
 mod run;
 mod scatter;
 mod tables;
+mod towards;
 mod unsampled;
 
+pub use profile::{Stage, StageTimes, profile};
 pub use run::{MeasureOptions, Picture, RenderOptions, SimulationError, measure, render};
 pub use unsampled::unsampled;

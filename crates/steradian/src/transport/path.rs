@@ -20,6 +20,7 @@ use steradian_kernel::{InstructionSet, MISS};
 use super::columns::{BATCH, Flights, Place, Vertices, Workspace};
 use super::interaction::{Hit, hit};
 use super::next_event::NextEvent;
+use super::profile::Stage;
 use super::scatter;
 use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, Side, Tables};
 
@@ -62,12 +63,15 @@ impl Tracer<'_> {
             if workspace.flights.len() == 0 {
                 return;
             }
+            workspace.watch.times.rays += workspace.flights.len() as u64;
             self.tables.scene.surfaces().closest(
                 &workspace.flights.rays,
                 &mut workspace.hits,
                 self.set,
             );
+            workspace.watch.lap(Stage::Closest);
             self.arrive(workspace, candidates);
+            workspace.watch.lap(Stage::Arrive);
             if segment == self.max_depth {
                 return;
             }
@@ -86,6 +90,7 @@ impl Tracer<'_> {
         }
         .gather(workspace);
         scatter::reflect(self, workspace, segment);
+        workspace.watch.lap(Stage::Scatter);
     }
 
     /// Adds emission found at the hits and collects the vertices that reflect.

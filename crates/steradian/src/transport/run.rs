@@ -15,7 +15,7 @@ use crate::estimation::{EstimationError, Observer, Plan, Replicates, Stopping, e
 use crate::measurement::{LaneRecord, Measurements, PointRecord, SensorRecord};
 use crate::sampling::hash;
 use crate::scene::Scene;
-use crate::sensor::{Kind, Readout, Sensor};
+use crate::sensor::{Camera, Kind, Readout, Sensor};
 
 /// How a scene is measured.
 #[derive(Clone, Debug)]
@@ -139,18 +139,8 @@ pub fn render(
     options: &RenderOptions,
     observer: &mut dyn Observer,
 ) -> Result<Picture, SimulationError> {
-    let sensor = scene
-        .sensors()
-        .get(sensor)
-        .ok_or(SimulationError::NothingToDo("camera"))?;
-    let Kind::Camera(camera) = &sensor.kind else {
-        let name = sensor.name.clone();
-        return Err(SimulationError::WrongSensor {
-            name,
-            is: "a meter",
-            expected: "a camera",
-        });
-    };
+    let camera = camera_of(scene, sensor)?;
+    let sensor = &scene.sensors()[sensor];
     let resolution = options.resolution.unwrap_or(camera.resolution);
     let tables = Tables::new(scene);
     let max_depth = options.max_depth.unwrap_or(u32::MAX);
@@ -180,6 +170,24 @@ pub fn render(
         warnings: scene.warnings().to_vec(),
         shard: options.plan.shard,
     })
+}
+
+/// The camera of this number among the sensors.
+pub(super) fn camera_of(scene: &Scene, sensor: usize) -> Result<&Camera, SimulationError> {
+    let sensor = scene
+        .sensors()
+        .get(sensor)
+        .ok_or(SimulationError::NothingToDo("camera"))?;
+    let wrong = || SimulationError::WrongSensor {
+        name: sensor.name.clone(),
+        is: "a meter",
+        expected: "a camera",
+    };
+    if let Kind::Camera(camera) = &sensor.kind {
+        Ok(camera)
+    } else {
+        Err(wrong())
+    }
 }
 
 fn film(scene: &Scene, camera: &Sensor, [width, height]: [u32; 2], filter: Filter) -> Film {

@@ -1,0 +1,246 @@
+//! One sampled direction towards a light, of any kind.
+//!
+//! A point drawn by area has the density p = r²/(A cosθ_l) in solid angle; a sphere seen from outside is drawn uniformly
+//! in its cone, p = 1/(2π(1 − cosθ_max)).
+
+use std::f32::consts::{PI, TAU};
+
+use glam::Vec3;
+
+use super::columns::Place;
+use super::tables::{Emitter, EmitterShape, Tables};
+use crate::sampling::{sincos, warp};
+
+/// A sampled direction towards an emitter.
+pub(super) struct Towards {
+    /// Unit vector from the vertex.
+    pub direction: Vec3,
+    /// Where the shadow ray ends; the direction itself for light from infinitely far away.
+    pub end: Vec3,
+    pub infinite: bool,
+    /// E_n per unit of the emitter's power.
+    pub per_power: f32,
+    /// Density in solid angle; infinite for a light without extent.
+    pub density: f32,
+}
+
+/// 1 − cosθ_max of a sphere's cone; `None` from inside and for a sphere with ports.
+pub(super) fn cone(axis: Vec3, radius: f32, whole: bool) -> Option<f32> {
+    let sin2 = radius * radius / axis.length_squared();
+    (whole && sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
+}
+
+pub(super) fn towards(
+    tables: &Tables,
+    emitter: &Emitter,
+    place: &Place,
+    u: [f32; 2],
+) -> Option<Towards> {
+    let vertex = Vec3::from_array(place.point);
+    match &emitter.shape {
+        EmitterShape::Parallelogram {
+            origin,
+            edges,
+            normal,
+            area,
+        } => {
+            let [a, b] = edges.map(Vec3::from_array);
+            let point = Vec3::from_array(*origin) + a * u[0] + b * u[1];
+            by_area(
+                vertex,
+                point,
+                Vec3::from_array(*normal),
+                *area,
+                emitter.two_sided,
+            )
+        }
+        EmitterShape::Triangles {
+            first,
+            cumulative,
+            area,
+        } => {
+            let (point, normal) = triangle_point(tables, *first, cumulative, u)?;
+            by_area(vertex, point, normal, *area, emitter.two_sided)
+        }
+        EmitterShape::Disc {
+            center,
+            normal,
+            axes,
+            inner,
+            outer,
+            area,
+        } => {
+            let radius = (inner * inner + (outer * outer - inner * inner) * u[0]).sqrt();
+            let (sin, cos) = sincos::sin_cos_two_pi(u[1]);
+            let [a, b] = axes.map(Vec3::from_array);
+            let point = Vec3::from_array(*center) + a * (radius * cos) + b * (radius * sin);
+            by_area(
+                vertex,
+                point,
+                Vec3::from_array(*normal),
+                *area,
+                emitter.two_sided,
+            )
+        }
+        EmitterShape::Sphere { .. } => towards_sphere(emitter, vertex, u),
+        EmitterShape::Point { position } => {
+            towards_point(vertex, Vec3::from_array(*position), |_| 1.0)
+        }
+        EmitterShape::Spot {
+            position,
+            axis,
+            beam,
+        } => {
+            let axis = Vec3::from_array(*axis);
+            towards_point(vertex, Vec3::from_array(*position), |direction| {
+                beam.falloff(f64::from(-direction.dot(axis))) as f32
+            })
+        }
+        EmitterShape::Directional { towards } => {
+            let direction = Vec3::from_array(*towards);
+            Some(Towards {
+                direction,
+                end: direction,
+                infinite: true,
+                per_power: 1.0,
+                density: f32::INFINITY,
+            })
+        }
+    }
+}
+
+fn towards_point(vertex: Vec3, position: Vec3, falloff: impl Fn(Vec3) -> f32) -> Option<Towards> {
+    let span = position - vertex;
+    let squared = span.length_squared();
+    let direction = span / squared.sqrt();
+    let per_power = falloff(direction) / squared;
+    (per_power > 0.0 && per_power.is_finite()).then_some(Towards {
+        direction,
+        end: position,
+        infinite: false,
+        per_power,
+        density: f32::INFINITY,
+    })
+}
+
+fn by_area(vertex: Vec3, point: Vec3, normal: Vec3, area: f32, two_sided: bool) -> Option<Towards> {
+    let span = point - vertex;
+    let squared = span.length_squared();
+    let direction = span / squared.sqrt();
+    let cos_light = -direction.dot(normal);
+    let facing = if cos_light < 0.0 { -normal } else { normal };
+    let seen = if two_sided {
+        cos_light.abs()
+    } else {
+        cos_light
+    };
+    let density = squared / (area * seen);
+    let usable = seen > 0.0 && density > 0.0 && density.is_finite();
+    let end = point + facing * clearance(point.into(), area.sqrt());
+    usable.then_some(Towards {
+        direction,
+        end,
+        infinite: false,
+        per_power: 1.0 / density,
+        density,
+    })
+}
+
+/// How far off its surface a sampled point must be moved to clear it: γ(8) of its coordinates and the shape's size.
+#[inline(always)]
+pub(super) fn clearance(point: [f32; 3], size: f32) -> f32 {
+    (point[0].abs() + point[1].abs() + point[2].abs() + size) * (8.0 * 0.5 * f32::EPSILON) * 2.0
+}
+
+fn triangle_point(
+    tables: &Tables,
+    first: u32,
+    cumulative: &[f32],
+    u: [f32; 2],
+) -> Option<(Vec3, Vec3)> {
+    let index = cumulative
+        .partition_point(|share| *share <= u[0])
+        .min(cumulative.len().checked_sub(1)?);
+    let before = if index == 0 {
+        0.0
+    } else {
+        cumulative[index - 1]
+    };
+    let within = ((u[0] - before) / (cumulative[index] - before)).clamp(0.0, 1.0);
+    let record = &tables.scene.surfaces().triangles()[first as usize + index];
+    let [a, b] = record.edges.map(Vec3::from_array);
+    let root = within.sqrt();
+    let point = Vec3::from_array(record.origin) + a * (1.0 - root) + b * (u[1] * root);
+    Some((point, Vec3::from_array(record.normal)))
+}
+
+fn towards_sphere(emitter: &Emitter, vertex: Vec3, u: [f32; 2]) -> Option<Towards> {
+    let EmitterShape::Sphere {
+        center,
+        radius,
+        inside,
+        ports,
+    } = &emitter.shape
+    else {
+        return None;
+    };
+    let (center, radius) = (Vec3::from_array(*center), *radius);
+    let axis = center - vertex;
+    match cone(axis, radius, ports.is_empty()) {
+        Some(_) if *inside && !emitter.two_sided => None,
+        Some(one_minus_cos_max) => {
+            Some(in_cone(axis, center, radius, one_minus_cos_max, vertex, u))
+        }
+        None => {
+            let outwards = Vec3::from_array(warp::sphere(u[0], u[1]));
+            let open = ports
+                .iter()
+                .any(|(direction, cos)| outwards.dot(Vec3::from_array(*direction)) > *cos);
+            let normal = if *inside { -outwards } else { outwards };
+            let area = 4.0 * PI * radius * radius;
+            if open {
+                None
+            } else {
+                by_area(
+                    vertex,
+                    center + outwards * radius,
+                    normal,
+                    area,
+                    emitter.two_sided,
+                )
+            }
+        }
+    }
+}
+
+fn in_cone(
+    axis: Vec3,
+    center: Vec3,
+    radius: f32,
+    one_minus_cos_max: f32,
+    vertex: Vec3,
+    u: [f32; 2],
+) -> Towards {
+    let one_minus_cos = u[0] * one_minus_cos_max;
+    let sin2 = one_minus_cos * (2.0 - one_minus_cos);
+    let (sin_phi, cos_phi) = sincos::sin_cos_two_pi(u[1]);
+    let (sin, cos) = (sin2.sqrt(), 1.0 - one_minus_cos);
+    let distance = axis.length();
+    let local = [sin * cos_phi, sin * sin_phi, cos];
+    let direction = Vec3::from_array(super::scatter::to_world((axis / distance).into(), local));
+    let reach = distance * cos
+        - (radius * radius - distance * distance * sin2)
+            .max(0.0)
+            .sqrt();
+    let outwards = (vertex + direction * reach - center).normalize();
+    let point = center + outwards * radius;
+    let end = point + outwards * clearance((point.abs() + center.abs()).into(), radius);
+    let density = 1.0 / (TAU * one_minus_cos_max);
+    Towards {
+        direction,
+        end,
+        infinite: false,
+        per_power: 1.0 / density,
+        density,
+    }
+}
