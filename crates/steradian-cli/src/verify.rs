@@ -40,7 +40,7 @@ const SINGLE_ROUNDING: f64 = 2e-7;
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     /// Stop each reading when its 95 % interval is within this part of the value
-    #[arg(long, value_name = "RATIO", value_parser = values::ratio, default_value = "0.2%")]
+    #[arg(long, value_name = "RATIO", value_parser = values::ratio, default_value = "1%")]
     rel_error: f64,
     /// Seed of all random numbers
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
@@ -55,7 +55,7 @@ pub struct Arguments {
 const EXAMPLES: &str = "\
 Examples:
   steradian verify
-  steradian verify --rel-error 0.05% --seed 7
+  steradian verify --rel-error 0.1% --seed 7
   steradian verify --format json";
 
 /// Text, or one JSON object.

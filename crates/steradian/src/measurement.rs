@@ -33,7 +33,9 @@ pub struct PointRecord {
     pub sits_on: Option<SitsOn>,
     /// The part of each column that a closed form gives, with no sampling error.
     pub exact: Vec<f64>,
-    /// The sampled part; none when nothing had to be sampled.
+    /// Columns whose exact part is all there is, so that nothing had to be sampled.
+    pub closed: Vec<bool>,
+    /// The sampled part; none when all columns are closed.
     pub replicates: Option<Replicates>,
 }
 
@@ -182,14 +184,18 @@ impl Measurements {
             .map(|column| weight(column / lanes, column % lanes))
             .collect();
         let exact = weights.iter().zip(&point.exact).map(|(w, x)| w * x).sum();
+        let open = weights.iter().zip(&point.closed);
+        let open: Vec<f64> = open
+            .map(|(weight, closed)| if *closed { 0.0 } else { *weight })
+            .collect();
         match &point.replicates {
-            None => Estimate::closed_form(exact),
-            Some(replicates) => {
-                let sampled = replicates.combine(&weights);
+            Some(replicates) if open.iter().any(|weight| *weight != 0.0) => {
+                let sampled = replicates.combine(&open);
                 sampled
                     .widened(ROUNDING * sampled.value.abs())
                     .plus_exact(exact)
             }
+            _ => Estimate::closed_form(exact),
         }
     }
 }

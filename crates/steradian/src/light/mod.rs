@@ -95,6 +95,17 @@ impl Light {
         )
     }
 
+    /// Intensity, irradiance or radiance of a lane, by kind, in SI units.
+    pub fn power(&self, lane: usize) -> f64 {
+        match &self.kind {
+            Kind::Point(light) => light.intensity[lane].to_watts_per_steradian(),
+            Kind::Spot(light) => light.peak_intensity[lane].to_watts_per_steradian(),
+            Kind::Directional { irradiance, .. } => irradiance[lane].to_watts_per_square_metre(),
+            Kind::Environment { radiance } => radiance[lane].to_watts_per_square_metre_steradian(),
+            Kind::Area(light) => light.radiance[lane].to_watts_per_square_metre_steradian(),
+        }
+    }
+
     /// A sample as seen from `point` on a surface of this `normal`; `None` when the light gives nothing there.
     ///
     /// `form` finds the geometry of an area light. A constant environment is not sampled here: a surface's own

@@ -17,6 +17,7 @@ use super::exact;
 use super::interaction::hit;
 use super::tables::{Model, Tables};
 use crate::geometry::{Direction, Point};
+use crate::light::Light;
 use crate::scene::Scene;
 use crate::sensor::{FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
 use crate::shape::Form;
@@ -56,6 +57,8 @@ pub(super) struct Prepared<'a> {
     pub sits_on: Option<SitsOn>,
     /// The exact part of each column.
     pub exact: Vec<f64>,
+    /// Columns whose exact part is all there is.
+    pub closed: Vec<bool>,
     /// What is left to sample.
     pub meter: Option<Meter<'a>>,
     /// The stream that samples it.
@@ -68,11 +71,7 @@ pub(super) fn prepare<'a>(
     sensor: &'a Sensor,
     max_depth: u32,
 ) -> Vec<Prepared<'a>> {
-    let context = Context {
-        tables,
-        scene: tables.scene,
-        max_depth,
-    };
+    let context = Context::new(tables, max_depth);
     match &sensor.kind {
         Kind::Irradiance(receivers) => receivers
             .iter()
@@ -94,19 +93,63 @@ struct Context<'t, 'a> {
     tables: &'t Tables<'a>,
     scene: &'a Scene,
     max_depth: u32,
+    /// Columns in which no light has any power.
+    dark: Vec<bool>,
+    /// Columns of which a point receives lights without extent only, by themselves and not by reflection.
+    closed_at_points: Vec<bool>,
 }
 
-impl<'a> Context<'_, 'a> {
+impl<'t, 'a> Context<'t, 'a> {
+    fn new(tables: &'t Tables<'a>, max_depth: u32) -> Self {
+        let scene = tables.scene;
+        let context = Context {
+            tables,
+            scene,
+            max_depth,
+            dark: vec![],
+            closed_at_points: vec![],
+        };
+        let reflects = |lane: usize| {
+            max_depth >= 2
+                && tables
+                    .sides
+                    .iter()
+                    .any(|side| side.model != Model::Black && side.reflectance[lane] > 0.0)
+        };
+        let reflects: Vec<bool> = (0..tables.lanes).map(reflects).collect();
+        let shines = |light: &Light, lane: usize| light.power(lane) > 0.0;
+        let dark = context.columns_where(shines);
+        let closed_at_points = context.columns_where(|light, lane| {
+            shines(light, lane) && (reflects[lane] || !light.is_delta())
+        });
+        Context {
+            dark,
+            closed_at_points,
+            ..context
+        }
+    }
+
     fn columns(&self) -> usize {
         self.scene.columns()
     }
 
+    /// True for the columns to which no light contributes.
+    fn columns_where(&self, contributes: impl Fn(&Light, usize) -> bool) -> Vec<bool> {
+        let column = |column: usize| {
+            let (group, lane) = (column / self.tables.lanes, column % self.tables.lanes);
+            let mut lights = self
+                .scene
+                .lights()
+                .iter()
+                .filter(|light| light.group as usize == group);
+            !lights.any(|light| contributes(light, lane))
+        };
+        (0..self.columns()).map(column).collect()
+    }
+
     /// Whether a point can receive anything that must be sampled.
     fn samples_points(&self) -> bool {
-        let direct = self.tables.extended > 0
-            || !self.tables.environment.is_empty()
-            || self.tables.emits_unsampled;
-        (self.max_depth >= 1 && direct) || (self.max_depth >= 2 && self.tables.reflects)
+        self.max_depth >= 1 && self.closed_at_points.contains(&false)
     }
 
     /// Whether a receiver can: not if nothing shines from everywhere and no surface reaches above its plane.
@@ -135,6 +178,7 @@ impl<'a> Context<'_, 'a> {
                 Some(receiver.normal),
                 receiver.clearance,
             ),
+            closed: self.closed_at_points.clone(),
             meter: self
                 .samples_receiver(receiver)
                 .then_some(Meter::Irradiance(place)),
@@ -154,6 +198,7 @@ impl<'a> Context<'_, 'a> {
             normal: None,
             sits_on: None,
             exact: exact::irradiance(self.scene, point, None, 0.0),
+            closed: self.closed_at_points.clone(),
             meter: self.samples_points().then_some(Meter::Scalar(place)),
             stream: None,
         }
@@ -183,6 +228,7 @@ impl<'a> Context<'_, 'a> {
                 normal: Some(*direction),
                 sits_on: None,
                 exact,
+                closed: self.dark.clone(),
                 meter,
                 stream: None,
             }
@@ -257,6 +303,7 @@ impl<'a> Context<'_, 'a> {
             normal: None,
             sits_on: None,
             exact,
+            closed: self.dark.clone(),
             meter,
             stream: None,
         }

@@ -335,6 +335,7 @@ fn point(reading: Prepared, replicates: &[Replicates]) -> PointRecord {
         normal: reading.normal.map(|normal| normal.to_array()),
         sits_on: reading.sits_on,
         exact: reading.exact,
+        closed: reading.closed,
         replicates: reading.stream.map(|stream| replicates[stream].clone()),
     }
 }

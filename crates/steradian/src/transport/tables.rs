@@ -113,10 +113,6 @@ pub(super) struct Tables<'a> {
     pub cumulative: Vec<f32>,
     /// Radiance of everywhere, by group.
     pub environment: Vec<(u32, Lanes4)>,
-    /// Whether any side reflects.
-    pub reflects: bool,
-    /// Whether any side emits that next-event estimation cannot find.
-    pub emits_unsampled: bool,
 }
 
 impl<'a> Tables<'a> {
@@ -146,10 +142,6 @@ impl<'a> Tables<'a> {
             ]
         });
         let sides: Vec<_> = sides.collect();
-        let reflects = sides.iter().any(|side| side.model != Model::Black);
-        let emits_unsampled = sides
-            .iter()
-            .any(|side| side.emits && side.emitter == NO_EMITTER);
         let environment = scene
             .environment()
             .map(|(group, radiance)| (group, radiance.map(|x| x as f32)))
@@ -162,8 +154,6 @@ impl<'a> Tables<'a> {
             extended,
             cumulative,
             environment,
-            reflects,
-            emits_unsampled,
         }
     }
 
