@@ -4,6 +4,11 @@
 //! Each draws from several blocks, as a path does, so that the net alone does not integrate it.
 //! The full count over 2000 seeds and more runs by `cargo test -p steradian-tests --release --test coverage -- --ignored`.
 
+#![allow(
+    clippy::print_stdout,
+    reason = "the measured coverage is what a reader wants to see"
+)]
+
 use steradian::estimation::{
     Estimate, Integrand, Plan, SampleBatch, Silent, Stopping, Tally, estimate,
 };

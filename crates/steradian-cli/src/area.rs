@@ -28,7 +28,7 @@ pub struct Arguments {
     /// rectangle, disc, sphere or polygon; or a mesh (.obj) or scene file (.toml), whose shapes are listed
     #[arg(value_name = "SHAPE|FILE")]
     target: String,
-    /// rectangle: WIDTH HEIGHT; disc: RADIUS [INNER]; sphere: RADIUS; polygon: corners X,Y,Z in metres. Lengths may have a unit
+    /// rectangle: WIDTH HEIGHT; disc: RADIUS and perhaps INNER; sphere: RADIUS; polygon: corners X,Y,Z in metres. Lengths may have a unit
     #[arg(value_name = "SIZE", allow_negative_numbers = true)]
     sizes: Vec<String>,
     /// Cells along each coordinate of the quadrature

@@ -114,7 +114,7 @@ pub struct Repeat {
 /// The kinds of geometry.
 #[derive(Clone, Debug)]
 pub enum GeometryDescription {
-    /// `origin + s·edges[0] + t·edges[1]`, s and t in 0..1; the normal is edges[0] × edges[1].
+    /// `origin + s·edges[0] + t·edges[1]`, s and t in 0..1; the normal is `edges[0] × edges[1]`.
     Rectangle {
         /// A corner.
         origin: Point,
@@ -358,7 +358,7 @@ pub enum Receivers {
         edges: [Vector; 2],
         /// Cells along each.
         count: [u32; 2],
-        /// Normal; `None` is edges[0] × edges[1].
+        /// Normal; `None` is `edges[0] × edges[1]`.
         normal: Option<Vector>,
     },
     /// Points spread over a shape.
