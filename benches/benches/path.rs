@@ -23,12 +23,10 @@ fn main() {
         "/../scenes/cornell-box.toml"
     ));
     let path = arguments.next().map_or(default, PathBuf::from);
-    let max_depth = Some(
-        arguments
-            .next()
-            .and_then(|depth| depth.parse().ok())
-            .unwrap_or(8),
-    );
+    let depth = arguments
+        .next()
+        .and_then(|depth| depth.parse().ok())
+        .unwrap_or(8);
     let loaded =
         read_scene(&path, &DiskFiles::default()).unwrap_or_else(|problems| panic!("{problems:?}"));
     let scene = Scene::new(&loaded.description).unwrap_or_else(|problems| panic!("{problems:?}"));
@@ -39,7 +37,7 @@ fn main() {
         .position(is_camera)
         .expect("the scene has a camera");
     let options = RenderOptions {
-        max_depth,
+        max_depth: Some(depth),
         ..RenderOptions::default()
     };
     let round = |_| profile(&scene, camera, &options, BATCHES).expect("the camera renders");
@@ -56,7 +54,7 @@ fn main() {
     println!(
         "{} paths to depth {}, {:.2} rays a path",
         best.paths,
-        max_depth.unwrap_or(0),
+        depth,
         best.rays as f64 / best.paths as f64
     );
     for stage in Stage::ALL {

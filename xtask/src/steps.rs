@@ -47,11 +47,8 @@ impl Steps {
         let skipped = count(|outcome| matches!(outcome, Outcome::Skipped(_)));
         let total: Duration = self.done.iter().map(|step| step.2).sum();
         let passed = self.done.len() - failed - skipped;
-        let summary = format!(
-            "{passed} passed, {failed} failed, {skipped} skipped in {:.0} s",
-            total.as_secs_f64()
-        );
-        println!("{summary}");
+        println!("          {:7.1} s  in all", total.as_secs_f64());
+        println!("{passed} passed, {failed} failed, {skipped} skipped");
         if failed == 0 {
             Ok(())
         } else {
