@@ -1,0 +1,88 @@
+"""Pictures of the Cornell box, rendered alike by Steradian and by Mitsuba 3, with the processor time each took.
+
+Both sides render 256 × 256 pixels with paths of at most 8 segments on one thread. `Steradian.render` and
+`Mitsuba.render` have the same arguments and the same result, so that a comparison treats them alike.
+"""
+
+import pathlib
+import resource
+import subprocess
+import tempfile
+import time
+import typing
+
+import drjit
+import mitsuba
+import numpy
+
+SIZE = 256
+DEPTH = 8
+SCENE = pathlib.Path(__file__).resolve().parents[2] / "scenes" / "cornell-box.toml"
+FILTERS = ("gaussian", "box")
+
+
+class Picture(typing.NamedTuple):
+    """Radiance by row from the top, column and channel, in W/(m² sr)."""
+
+    values: numpy.ndarray
+    cpu_seconds: float
+    """User and system time, without starting the program and reading the scene."""
+    errors: numpy.ndarray | None = None
+    """Standard errors as the program states them, if it does."""
+
+
+class Steradian:
+    name = "Steradian"
+
+    def __init__(self, program, filter="gaussian"):
+        self.command = [str(program), "render", str(SCENE), "--max-depth", str(DEPTH), "--filter", filter, "--threads", "1"]
+        # A picture of one pixel: everything but the paths.
+        self.start_up = self.run(4, 0, "--resolution", "1x1").cpu_seconds
+
+    def render(self, samples, seed):
+        picture = self.run(samples, seed)
+        return picture._replace(cpu_seconds=picture.cpu_seconds - self.start_up)
+
+    def run(self, samples, seed, *more):
+        with tempfile.TemporaryDirectory(prefix="steradian-cornell-") as directory:
+            output = pathlib.Path(directory, "picture.pfm")
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            command = [*self.command, "--samples", str(samples), "--seed", str(seed), "-o", str(output), *more]
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            seconds = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+            return Picture(read_pfm(output), seconds, read_pfm(output.with_suffix(".error.pfm")))
+
+
+class Mitsuba:
+    def __init__(self, sampler="independent", filter="gaussian", variant="llvm_ad_rgb"):
+        self.name = f"Mitsuba {sampler}"
+        mitsuba.set_variant(variant)
+        drjit.set_thread_count(1)
+        scene = mitsuba.cornell_box()
+        scene["integrator"]["max_depth"] = DEPTH
+        scene["sensor"]["film"].update(width=SIZE, height=SIZE, rfilter={"type": filter})
+        scene["sensor"]["sampler"] = {"type": sampler, "sample_count": 64}
+        self.scene = mitsuba.load_dict(scene)
+
+    def render(self, samples, seed):
+        """The first call also compiles the kernel, which later ones of the same process do not."""
+        start = time.process_time()
+        values = numpy.array(mitsuba.render(self.scene, spp=samples, seed=seed))
+        return Picture(values[..., :3].astype(float), time.process_time() - start)
+
+
+def relative_mse(picture, reference):
+    """Mean over pixels and channels of (x - r)² / (r² + 0.01)."""
+    return numpy.mean((picture - reference) ** 2 / (reference**2 + 0.01))
+
+
+def read_pfm(path):
+    """A colour PFM: its rows come bottom first; a negative scale says little-endian."""
+    with open(path, "rb") as file:
+        kind, size, scale = file.readline().strip(), file.readline().split(), float(file.readline())
+        if kind != b"PF":
+            raise ValueError(f"{path}: a colour PFM begins with PF, not {kind!r}")
+        width, height = map(int, size)
+        floats = numpy.frombuffer(file.read(), "<f4" if scale < 0 else ">f4")
+    return floats.reshape(height, width, 3)[::-1].astype(float)
