@@ -86,3 +86,6 @@ impl Brdf {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

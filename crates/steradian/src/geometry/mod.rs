@@ -17,7 +17,7 @@ mod spherical;
 mod transform;
 
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 
 pub use bounds::Bounds;
 pub use direction::{Direction, NoDirection};

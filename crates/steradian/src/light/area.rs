@@ -1,7 +1,7 @@
 //! A Lambertian emitter on a shape: the same radiance L from every point and in every direction of its emitting side.
 //!
 //! Φ = π L A for each emitting side, M = π L. Seen from a receiver, a sampled point of area density 1/A has the
-//! density p = r²/(A cosθ_l) in solid angle; a sphere seen from outside is sampled uniformly in the cone it subtends,
+//! density p = r²/(A cosθ_l) in solid angle; a whole sphere seen from outside is sampled uniformly in the cone it subtends,
 //! p = 1/(2π(1 − cos θ_max)) with sin θ_max = R/d. E_n = L/p.
 //!
 //! | symbol | meaning | unit |
@@ -93,13 +93,9 @@ impl AreaLight {
         let (sin, cos) = (sin2.sqrt(), 1.0 - one_minus_cos);
         let local = Direction::from_polar(sin, cos, TAU * u[1]);
         let direction = Frame::from_normal(Direction::new(axis).ok()?).to_world(local);
-        let reach = distance * cos
-            - (sphere.radius * sphere.radius - distance * distance * sin2)
-                .max(0.0)
-                .sqrt();
-        let outwards =
-            Direction::new(point + direction.to_vector() * reach - sphere.center).ok()?;
-        (!sphere.in_port(outwards)).then_some((direction, reach, 1.0 / (TAU * one_minus_cos_max)))
+        let half_chord = sphere.radius * sphere.radius - distance * distance * sin2;
+        let reach = distance * cos - half_chord.max(0.0).sqrt();
+        Some((direction, reach, 1.0 / (TAU * one_minus_cos_max)))
     }
 }
 

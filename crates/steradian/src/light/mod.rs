@@ -151,3 +151,6 @@ pub(crate) struct Incident {
     pub normal_irradiance: [Irradiance; MAX_LANES],
     pub density: Density,
 }
+
+#[cfg(test)]
+mod tests;

@@ -43,6 +43,8 @@ pub enum Beam {
 impl Beam {
     /// f at the angle whose cosine is given.
     pub fn falloff(&self, cos_theta: f64) -> f64 {
+        // The product of unit vectors may exceed 1 by rounding, which a cutoff of 180° would take for outside.
+        let cos_theta = cos_theta.clamp(-1.0, 1.0);
         match *self {
             Self::Uniform { cos_cutoff } => f64::from(u8::from(cos_theta >= cos_cutoff)),
             Self::CosinePower { cos_cutoff, .. } if cos_theta < cos_cutoff => 0.0,
@@ -99,7 +101,7 @@ impl SpotLight {
         let distance = towards.length();
         let direction = Direction::new(towards).ok()?;
         let falloff = self.beam.falloff(-direction.dot(self.axis));
-        Some(Incident {
+        (falloff > 0.0).then(|| Incident {
             direction,
             distance,
             normal_irradiance: self

@@ -9,3 +9,5 @@ pub mod owen;
 pub mod sincos;
 pub mod sobol;
 pub mod warp;
+#[cfg(test)]
+pub(crate) mod testing;
