@@ -98,9 +98,10 @@ pub struct Reading {
     pub estimate: Estimate,
     /// Samples behind it.
     pub samples: u64,
-    /// By lane.
+    /// By lane, of the lanes that count: a band without light has no part in a photometric value. They add up to the
+    /// value, but in `rgb`, where the value is their luminance-weighted mean.
     pub channels: Vec<(String, Estimate)>,
-    /// By light group.
+    /// By light group; they add up to the value.
     pub groups: Vec<(String, Estimate)>,
 }
 
@@ -134,27 +135,7 @@ impl Measurements {
     }
 
     fn reading(&self, sensor: &SensorRecord, point: &PointRecord, quantity: &Readout) -> Reading {
-        let all = |_: usize, lane: usize| quantity.weights[lane];
-        let channel = |wanted: usize| {
-            move |_: usize, lane: usize| {
-                if lane == wanted {
-                    quantity.channel_factor
-                } else {
-                    0.0
-                }
-            }
-        };
-        let group = |wanted: usize| {
-            move |group: usize, lane: usize| {
-                if group == wanted {
-                    quantity.weights[lane]
-                } else {
-                    0.0
-                }
-            }
-        };
-        let lanes = self.lanes.iter().enumerate();
-        let groups = self.groups.iter().enumerate();
+        let samples = point.replicates.as_ref();
         Reading {
             sensor: sensor.name.clone(),
             index: point.index,
@@ -163,18 +144,38 @@ impl Measurements {
             sits_on: point.sits_on.clone(),
             quantity: quantity.name.clone(),
             unit: quantity.unit.clone(),
-            estimate: self.combine(point, all),
-            samples: point
-                .replicates
-                .as_ref()
-                .map_or(0, Replicates::total_samples),
-            channels: lanes
-                .map(|(i, lane)| (lane.name.clone(), self.combine(point, channel(i))))
-                .collect(),
-            groups: groups
-                .map(|(i, name)| (name.clone(), self.combine(point, group(i))))
-                .collect(),
+            estimate: self.combine(point, |_, lane| quantity.weights[lane]),
+            samples: samples.map_or(0, Replicates::total_samples),
+            channels: self.channels(point, quantity),
+            groups: self.shares(point, quantity),
         }
+    }
+
+    /// Each lane that has a part in the quantity.
+    fn channels(&self, point: &PointRecord, quantity: &Readout) -> Vec<(String, Estimate)> {
+        let lanes = self.lanes.iter().zip(&quantity.weights).enumerate();
+        let channel = |wanted: usize| {
+            self.combine(point, |_, lane| {
+                f64::from(u8::from(lane == wanted)) * quantity.channel_factor
+            })
+        };
+        lanes
+            .filter(|(_, (_, weight))| **weight != 0.0)
+            .map(|(index, (lane, _))| (lane.name.clone(), channel(index)))
+            .collect()
+    }
+
+    /// What each light group adds to the value.
+    fn shares(&self, point: &PointRecord, quantity: &Readout) -> Vec<(String, Estimate)> {
+        let share = |wanted: usize| {
+            self.combine(point, |group, lane| {
+                f64::from(u8::from(group == wanted)) * quantity.weights[lane]
+            })
+        };
+        let groups = self.groups.iter().enumerate();
+        groups
+            .map(|(index, name)| (name.clone(), share(index)))
+            .collect()
     }
 
     /// Σ weight(group, lane) · column, exact and sampled parts together.
@@ -197,5 +198,164 @@ impl Measurements {
             }
             _ => Estimate::closed_form(exact),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimation::Method;
+    use crate::spectrum::Lanes;
+
+    /// Four replicates of 10 samples each, with the columns of two groups.
+    fn replicates(columns: usize, sums: &[f64]) -> Replicates {
+        let stored = serde_json::json!({
+            "sensor": 0, "confidence": 0.95, "weights": vec![1.0; columns], "sums": sums,
+            "samples": [10, 10, 10, 10], "largest": 1.0, "largest_of_sensor": 1.0, "converged": true,
+        });
+        serde_json::from_value(stored).unwrap()
+    }
+
+    fn measured(lanes: &Lanes, readout: Readout, exact: Vec<f64>, sampled: &[f64]) -> Reading {
+        let closed = vec![sampled.is_empty(); exact.len()];
+        measured_with(lanes, readout, exact, sampled, closed)
+    }
+
+    fn measured_with(
+        lanes: &Lanes,
+        readout: Readout,
+        exact: Vec<f64>,
+        sampled: &[f64],
+        closed: Vec<bool>,
+    ) -> Reading {
+        let replicates = (!sampled.is_empty()).then(|| replicates(exact.len(), sampled));
+        let point = PointRecord {
+            index: 3,
+            position: Some([1.0, 2.0, 3.0]),
+            normal: None,
+            sits_on: None,
+            exact,
+            closed,
+            replicates,
+        };
+        let names = lanes.names().iter().cloned();
+        let measurements = Measurements {
+            scene_name: "test".into(),
+            seed: 1,
+            confidence: 0.95,
+            luminous_efficacy: None,
+            max_depth: None,
+            lanes: names.map(|name| LaneRecord { name }).collect(),
+            groups: vec!["lamps".into(), "sky".into()],
+            sensors: vec![SensorRecord {
+                name: "desk".into(),
+                quantities: vec![readout],
+                points: vec![point],
+            }],
+            unsampled: vec![],
+            warnings: vec![],
+            shard: None,
+        };
+        measurements.readings().remove(0)
+    }
+
+    fn bands() -> Lanes {
+        Lanes::broadband(&["visible".into(), "nir".into()]).unwrap()
+    }
+
+    fn readout(lanes: &Lanes, photometric: bool) -> Readout {
+        let names = crate::sensor::readout::IRRADIANCE;
+        crate::sensor::readouts(lanes, names, !photometric, photometric, 100.0).remove(0)
+    }
+
+    /// By group and lane: lamps visible, lamps nir, sky visible, sky nir; the lamps' bands vary against each other.
+    const SAMPLED: [f64; 16] = [
+        10.0, 40.0, 5.0, 5.0, 20.0, 30.0, 5.0, 6.0, 30.0, 20.0, 5.0, 7.0, 40.0, 10.0, 5.0, 8.0,
+    ];
+    const EXACT: [f64; 4] = [100.0, 0.0, 0.0, 7.0];
+
+    fn sum(parts: &[(String, Estimate)]) -> f64 {
+        parts.iter().map(|(_, part)| part.value).sum()
+    }
+
+    #[test]
+    fn bands_and_groups_add_up_to_the_value() {
+        let reading = measured(&bands(), readout(&bands(), false), EXACT.to_vec(), &SAMPLED);
+        assert_eq!(
+            (reading.sensor.as_str(), reading.index, reading.samples),
+            ("desk", 3, 40)
+        );
+        // Sampled means: 2.5 + 2.5 + .5 + .65.
+        assert!((reading.estimate.value - (107.0 + 6.15)).abs() < 1e-12);
+        assert!((sum(&reading.channels) - reading.estimate.value).abs() < 1e-12);
+        assert!((sum(&reading.groups) - reading.estimate.value).abs() < 1e-12);
+        let values: Vec<f64> = reading.groups.iter().map(|(_, part)| part.value).collect();
+        assert!((values[0] - 105.0).abs() < 1e-12 && (values[1] - 8.15).abs() < 1e-12);
+    }
+
+    /// The lamps' visible and nir light add up to the same in every replicate: their sum has no sampling error, and only
+    /// the rounding of single precision is left.
+    #[test]
+    fn a_sum_keeps_the_covariance_of_its_columns() {
+        let reading = measured(&bands(), readout(&bands(), false), EXACT.to_vec(), &SAMPLED);
+        let (lamps, visible) = (&reading.groups[0].1, &reading.channels[0].1);
+        // Means 1, 2, 3, 4 (and .5 each): s² = 5/3, standard error √(5/12).
+        assert!((visible.std_error - (5.0_f64 / 12.0).sqrt()).abs() < 1e-6);
+        assert!((lamps.std_error / (ROUNDING * 5.0) - 1.0).abs() < 1e-9);
+        assert_eq!(lamps.method, Method::Estimate);
+    }
+
+    #[test]
+    fn only_bands_with_light_are_channels_of_a_photometric_value() {
+        let reading = measured(&bands(), readout(&bands(), true), EXACT.to_vec(), &SAMPLED);
+        assert_eq!(
+            (reading.quantity.as_str(), reading.unit.as_str()),
+            ("illuminance", "lx")
+        );
+        let names: Vec<&str> = reading
+            .channels
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .collect();
+        assert_eq!(names, ["visible"]);
+        assert!((reading.estimate.value - 100.0 * 103.0).abs() < 1e-9);
+        assert!((sum(&reading.channels) - reading.estimate.value).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_rgb_value_is_the_luminance_weighted_mean_of_its_channels() {
+        let lanes = Lanes::rgb();
+        let exact = vec![1.0, 2.0, 3.0, 10.0, 20.0, 30.0];
+        for (photometric, factor) in [(false, 1.0), (true, 100.0)] {
+            let reading = measured(&lanes, readout(&lanes, photometric), exact.clone(), &[]);
+            let channels: Vec<f64> = reading
+                .channels
+                .iter()
+                .map(|(_, part)| part.value)
+                .collect();
+            assert_eq!(channels, [11.0, 22.0, 33.0].map(|lane| lane * factor));
+            let mean = 0.2126 * channels[0] + 0.7152 * channels[1] + 0.0722 * channels[2];
+            assert!((reading.estimate.value - mean).abs() < 1e-9);
+            assert!((sum(&reading.groups) - mean).abs() < 1e-9);
+        }
+    }
+
+    /// The first group is known; what its columns hold of samples does not count.
+    #[test]
+    fn a_closed_group_has_no_error_beside_a_sampled_one() {
+        let closed = vec![true, true, false, false];
+        let readout = readout(&bands(), false);
+        let reading = measured_with(&bands(), readout, EXACT.to_vec(), &SAMPLED, closed);
+        let (lamps, sky) = (&reading.groups[0].1, &reading.groups[1].1);
+        assert_eq!(*lamps, Estimate::closed_form(100.0));
+        assert!((sky.value - 8.15).abs() < 1e-12 && sky.std_error > 0.01);
+        assert!((reading.estimate.value - 108.15).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_needs_no_sampling_has_no_error() {
+        let reading = measured(&bands(), readout(&bands(), false), EXACT.to_vec(), &[]);
+        assert_eq!(reading.estimate, Estimate::closed_form(107.0));
+        assert_eq!(reading.samples, 0);
     }
 }
