@@ -1,7 +1,10 @@
 //! Boxes: six faces with their own materials, and rectangular openings in them.
 
 use super::description::Opening;
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Bounds, Point, Polygon};
+
+/// What [`faces_of`] knows.
+pub(super) const FACE_NAMES: &str = "x-, x+, y-, y+, z- (floor), z+ (ceiling) and walls";
 
 /// The faces that a name of the `faces` table stands for.
 pub(super) fn faces_of(name: &str) -> Option<&'static [usize]> {
@@ -16,6 +19,16 @@ pub(super) fn faces_of(name: &str) -> Option<&'static [usize]> {
         _ => return None,
     })
 }
+
+/// Corners of each face, counter-clockwise from outside, as [`Bounds::corners`] counts them.
+const QUADS: [[u32; 4]; 6] = [
+    [0, 4, 6, 2],
+    [1, 3, 7, 5],
+    [0, 1, 5, 4],
+    [2, 6, 7, 3],
+    [0, 2, 3, 1],
+    [4, 5, 7, 6],
+];
 
 /// Triangles of a box: vertices, triangles, and the face (or 6 + opening) of each triangle.
 #[derive(Default)]
@@ -32,39 +45,28 @@ pub(super) fn box_mesh(
     inside: bool,
     openings: &[Opening],
 ) -> Result<BoxMesh, String> {
-    let corner = |i: u32| {
-        let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
-        Point::new(
-            pick(0, min.x, max.x),
-            pick(1, min.y, max.y),
-            pick(2, min.z, max.z),
-        )
-    };
+    if let Some(unknown) = openings
+        .iter()
+        .find(|opening| opening.face_index().is_none())
+    {
+        let face = &unknown.face;
+        return Err(format!(
+            "an opening's face is x-, x+, y-, y+, z- (floor) or z+ (ceiling), not `{face}`"
+        ));
+    }
     let mut mesh = BoxMesh {
-        vertices: (0..8).map(corner).collect(),
+        vertices: Bounds::around([min, max]).corners().to_vec(),
         ..BoxMesh::default()
     };
-    // Corners of each face, counter-clockwise from outside.
-    let quads = [
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-    ];
-    for (face, quad) in quads.into_iter().enumerate() {
+    for (face, quad) in QUADS.into_iter().enumerate() {
         let holes: Vec<_> = openings
             .iter()
             .enumerate()
             .filter(|(_, opening)| opening.face_index() == Some(face))
             .collect();
         if holes.is_empty() {
-            mesh.push(
-                face,
-                &[[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]],
-                inside,
-            );
+            let [a, b, c, d] = quad;
+            mesh.push(face, &[[a, b, c], [a, c, d]], inside);
         } else {
             pierced_face(&mut mesh, face, quad, (min, max), &holes, inside)?;
         }
@@ -85,7 +87,8 @@ fn pierced_face(
         .iter()
         .map(|(_, hole)| opening_corners(face, hole, extent))
         .collect::<Result<_, _>>()?;
-    let polygon = Polygon::new(boundary, corners.clone()).map_err(|error| error.to_string())?;
+    let polygon = Polygon::new(boundary, corners.clone())
+        .map_err(|_| format!("openings of face {} overlap or touch", holes[0].1.face))?;
     mesh.append(
         face,
         polygon.vertices().to_vec(),
@@ -119,8 +122,8 @@ fn opening_corners(
     if !fits(u, width, u_axis) || !fits(v, height, v_axis) {
         let (a, b) = (high[u_axis] - low[u_axis], high[v_axis] - low[v_axis]);
         return Err(format!(
-            "opening {:?} does not lie within its face of {a} m × {b} m",
-            opening.rect
+            "opening {:?} of face {} does not lie within the face of {a} m × {b} m, clear of its edges",
+            opening.rect, opening.face
         ));
     }
     let corner = |du: f64, dv: f64| {

@@ -10,7 +10,7 @@ use crate::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
     LuminousFlux, LuminousIntensity, Radiance,
 };
-pub use crate::sensor::Response;
+pub use crate::sensor::{FluxOf, Response};
 pub use crate::spectrum::LaneValues;
 
 /// Everything a run needs to know about a scene.
@@ -170,6 +170,21 @@ pub enum GeometryDescription {
         /// Its height in metres.
         height: f64,
     },
+}
+
+impl GeometryDescription {
+    /// What it is called in scene files.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Rectangle { .. } => "rectangle",
+            Self::Polygon { .. } => "polygon",
+            Self::Disc { .. } => "disc",
+            Self::Sphere { .. } => "sphere",
+            Self::Box { .. } => "box",
+            Self::Mesh(_) => "mesh",
+            Self::Ground { .. } => "ground",
+        }
+    }
 }
 
 /// Vertices and triangles of a mesh.
@@ -345,6 +360,21 @@ pub enum SensorKind {
     Camera(CameraDescription),
 }
 
+impl SensorKind {
+    /// A point of it; none for a sensor on a shape of the scene.
+    pub(super) fn place(&self) -> Option<Point> {
+        match self {
+            Self::Irradiance(Receivers::Points(points)) => points.first().map(|point| point.0),
+            Self::Irradiance(Receivers::Grid { origin, .. }) => Some(*origin),
+            Self::Irradiance(Receivers::Shape { .. }) => None,
+            Self::Flux { surface, .. } => surface.place(),
+            Self::Radiance { rays } => rays.first().map(|ray| ray.0),
+            Self::ScalarIrradiance { points } => points.first().copied(),
+            Self::Camera(camera) => Some(camera.position),
+        }
+    }
+}
+
 /// Points with normals.
 #[derive(Clone, Debug)]
 pub enum Receivers {
@@ -403,18 +433,26 @@ pub enum FluxSurface {
     },
 }
 
-/// Which flux is counted.
-#[derive(Copy, Clone, Debug, Default, PartialEq, Eq)]
-pub enum FluxOf {
-    /// What arrives.
-    #[default]
-    Incident,
-    /// What leaves: emitted and reflected (or, for a surface that does not block light, what passes the other way).
-    Leaving,
-    /// What arrives and is not reflected (shapes only).
-    Absorbed,
-    /// Incident minus leaving.
-    Net,
+impl FluxSurface {
+    fn place(&self) -> Option<Point> {
+        let Self::Virtual {
+            geometry,
+            transform,
+        } = self
+        else {
+            return None;
+        };
+        let place = match geometry {
+            GeometryDescription::Rectangle { origin, .. } => *origin,
+            GeometryDescription::Polygon { vertices, .. } => *vertices.first()?,
+            GeometryDescription::Disc { center, .. }
+            | GeometryDescription::Sphere { center, .. } => *center,
+            GeometryDescription::Box { min, .. } => *min,
+            GeometryDescription::Mesh(mesh) => *mesh.vertices.first()?,
+            GeometryDescription::Ground { .. } => return None,
+        };
+        Some(transform.point(place))
+    }
 }
 
 /// A perspective camera.

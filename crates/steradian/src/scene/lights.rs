@@ -5,14 +5,17 @@ use super::description::{
     ShapeDescription, SpotBeam,
 };
 use super::forms::{Forms, copies};
-use super::{Part, Problem};
-use crate::geometry::{Direction, Vector};
+use super::{Fault, Part, Problem};
+use crate::geometry::{Direction, Point, Vector};
 use crate::light::{AreaLight, Beam, Kind, Light, LightId, PointLight, SpotLight};
 use crate::quantity::{
-    Amount, Area, Exitance, Flux, Intensity, Irradiance, Quantity, Radiance, SolidAngle,
+    Amount, Angle, Area, Exitance, Flux, Intensity, Irradiance, Quantity, Radiance, SolidAngle,
 };
 use crate::shape::{Placed, ShapeId};
 use crate::spectrum::{Lanes, MAX_LANES};
+
+/// A spot of a smaller half angle, in degrees, would have no solid angle left beside the rounding of its cosine.
+const NARROWEST_BEAM: f64 = 1e-4;
 
 /// Collects lights and their groups.
 pub(super) struct Builder<'a> {
@@ -49,70 +52,66 @@ impl<'a> Builder<'a> {
                 continue;
             };
             for form in forms.of_description[index].clone() {
-                let radiance = match self.radiance(emission, placed[form].form.area()) {
-                    Ok(radiance) => radiance,
-                    Err(message) => {
-                        problems.push(Problem::at(Part::Shape(index), "emission", message));
-                        break;
-                    }
-                };
-                let light = AreaLight {
-                    shape: ShapeId(form as u32),
-                    radiance,
-                    two_sided: emission.two_sided,
-                };
-                let id = self.push(
-                    forms.names[form].clone(),
-                    emission.group.as_deref(),
-                    Kind::Area(light),
-                );
-                for part in &placed[form].parts {
-                    forms.parts[part.0 as usize].light = Some(id);
+                if let Err(message) = self.emit(emission, form, forms, &placed[form]) {
+                    problems.push(Problem::at(Part::Shape(index), "emission", message));
+                    break;
                 }
             }
         }
+    }
+
+    fn emit(
+        &mut self,
+        emission: &EmissionDescription,
+        form: usize,
+        forms: &mut Forms,
+        placed: &Placed,
+    ) -> Result<(), String> {
+        let light = Kind::Area(AreaLight {
+            shape: ShapeId(form as u32),
+            radiance: self.radiance(emission, placed.form.area())?,
+            two_sided: emission.two_sided,
+        });
+        let id = self.push(forms.names[form].clone(), emission.group.as_deref(), light);
+        for part in &placed.parts {
+            forms.parts[part.0 as usize].light = Some(id);
+        }
+        Ok(())
     }
 
     /// Lights without a shape.
     pub fn add_lights(&mut self, lights: &[LightDescription], problems: &mut Vec<Problem>) {
         for (index, light) in lights.iter().enumerate() {
             let part = Part::Light(index);
-            if light.repeat.is_some()
-                && matches!(
-                    light.kind,
-                    LightKind::Directional { .. } | LightKind::Environment { .. }
-                )
-            {
-                problems.push(Problem::at(
-                    part,
-                    "repeat",
-                    "a light infinitely far away cannot be repeated",
-                ));
+            if light.repeat.is_some() && light.kind.is_infinitely_far() {
+                let message = "a light infinitely far away cannot be repeated";
+                problems.push(Problem::at(part, "repeat", message));
+                continue;
             }
-            let name = light
-                .name
-                .clone()
-                .unwrap_or_else(|| format!("light {index}"));
-            for (copy, step) in copies(light.repeat.as_ref(), part, problems)
-                .into_iter()
-                .enumerate()
-            {
-                match self.kind(light, step) {
-                    Ok(kind) => {
-                        let name = if light.repeat.is_some() {
-                            format!("{name}[{copy}]")
-                        } else {
-                            name.clone()
-                        };
-                        self.push(name, light.group.as_deref(), kind);
-                    }
-                    Err((key, message)) => {
-                        problems.push(Problem::at(part, key, message));
-                        break;
-                    }
-                }
+            let steps = copies(light.repeat.as_ref(), part, problems);
+            if let Err((key, message)) = self.add_copies(light, index, &steps) {
+                problems.push(Problem::at(part, key, message));
             }
         }
+    }
+
+    fn add_copies(
+        &mut self,
+        light: &LightDescription,
+        index: usize,
+        steps: &[Vector],
+    ) -> Result<(), Fault> {
+        let own = light.name.clone();
+        let name = own.unwrap_or_else(|| format!("light {index}"));
+        for (copy, step) in steps.iter().enumerate() {
+            let kind = self.kind(light, *step)?;
+            let name = match light.repeat {
+                Some(_) => format!("{name}[{copy}]"),
+                None => name.clone(),
+            };
+            self.push(name, light.group.as_deref(), kind);
+        }
+        Ok(())
     }
 
     fn push(&mut self, name: String, group: Option<&str>, kind: Kind) -> LightId {
@@ -191,57 +190,44 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn kind(
-        &mut self,
-        light: &LightDescription,
-        step: Vector,
-    ) -> Result<Kind, (&'static str, String)> {
+    fn kind(&mut self, light: &LightDescription, step: Vector) -> Result<Kind, Fault> {
         let shape = light.spectrum.as_ref();
-        Ok(match &light.kind {
-            LightKind::Point { position, power } => {
-                let intensity = self.intensity(power, SolidAngle::SPHERE, shape)?;
-                Kind::Point(PointLight {
-                    position: *position + step,
-                    intensity,
-                })
-            }
+        match &light.kind {
+            LightKind::Point { position, power } => Ok(Kind::Point(PointLight {
+                position: position_of(*position + step)?,
+                intensity: self.intensity(power, SolidAngle::SPHERE, shape)?,
+            })),
             LightKind::Spot {
                 position,
                 direction,
                 beam,
                 power,
             } => {
-                let axis = direction_of(*direction)?;
                 let beam = beam_of(beam)?;
-                let peak_intensity = self.intensity(power, beam.solid_angle(), shape)?;
-                Kind::Spot(SpotLight {
-                    position: *position + step,
-                    axis,
+                Ok(Kind::Spot(SpotLight {
+                    position: position_of(*position + step)?,
+                    axis: direction_of(*direction)?,
                     beam,
-                    peak_intensity,
-                })
+                    peak_intensity: self.intensity(power, beam.solid_angle(), shape)?,
+                }))
             }
             LightKind::Directional {
                 direction,
                 irradiance,
-            } => {
-                let irradiance = self
+            } => Ok(Kind::Directional {
+                direction: direction_of(*direction)?,
+                irradiance: self
                     .amount(*irradiance, shape)
-                    .map_err(|message| ("irradiance", message))?;
-                Kind::Directional {
-                    direction: direction_of(*direction)?,
-                    irradiance: irradiance.map(Irradiance::from_watts_per_square_metre),
-                }
-            }
-            LightKind::Environment { radiance } => {
-                let radiance = self
+                    .map_err(|message| ("irradiance", message))?
+                    .map(Irradiance::from_watts_per_square_metre),
+            }),
+            LightKind::Environment { radiance } => Ok(Kind::Environment {
+                radiance: self
                     .amount(*radiance, shape)
-                    .map_err(|message| ("radiance", message))?;
-                Kind::Environment {
-                    radiance: radiance.map(Radiance::from_watts_per_square_metre_steradian),
-                }
-            }
-        })
+                    .map_err(|message| ("radiance", message))?
+                    .map(Radiance::from_watts_per_square_metre_steradian),
+            }),
+        }
     }
 
     fn intensity(
@@ -249,7 +235,7 @@ impl<'a> Builder<'a> {
         power: &PointPower,
         beam: SolidAngle,
         shape: Option<&LaneValues>,
-    ) -> Result<[Intensity; MAX_LANES], (&'static str, String)> {
+    ) -> Result<[Intensity; MAX_LANES], Fault> {
         match *power {
             PointPower::Intensity(amount) => {
                 let lanes = self
@@ -267,50 +253,71 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn direction_of(direction: Vector) -> Result<Direction, (&'static str, String)> {
-    Direction::new(direction)
-        .map_err(|_| ("direction", "a direction is finite and not zero".into()))
+impl LightKind {
+    fn is_infinitely_far(&self) -> bool {
+        matches!(self, Self::Directional { .. } | Self::Environment { .. })
+    }
 }
 
-fn beam_of(beam: &SpotBeam) -> Result<Beam, (&'static str, String)> {
+fn position_of(position: Point) -> Result<Point, Fault> {
+    let message = || {
+        format!(
+            "a light's position is finite, not {:?}",
+            position.to_array()
+        )
+    };
+    position
+        .is_finite()
+        .then_some(position)
+        .ok_or_else(|| ("position", message()))
+}
+
+fn direction_of(direction: Vector) -> Result<Direction, Fault> {
+    let message = "a direction is finite and not zero";
+    Direction::new(direction).map_err(|_| ("direction", message.into()))
+}
+
+fn beam_of(beam: &SpotBeam) -> Result<Beam, Fault> {
     let cutoff = match *beam {
         SpotBeam::Uniform { cutoff }
         | SpotBeam::CosinePower { cutoff, .. }
         | SpotBeam::Smooth { cutoff, .. } => cutoff,
     };
     let degrees = cutoff.to_degrees();
-    if !(degrees > 0.0 && degrees <= 180.0) {
-        return Err((
-            "cutoff",
-            format!("a spot's cutoff lies above 0 and at most at 180 deg, not {degrees} deg"),
-        ));
+    if !(degrees > NARROWEST_BEAM && degrees <= 180.0) {
+        let message = format!(
+            "a spot's cutoff lies above {NARROWEST_BEAM} deg and at most at 180 deg, not {degrees} deg"
+        );
+        return Err(("cutoff", message));
     }
+    falloff_of(beam, cutoff).ok_or_else(|| {
+        let message = match beam {
+            SpotBeam::Smooth { .. } => "the inner half angle lies between 0 and the cutoff",
+            _ => "a power falloff has a positive exponent and a cutoff of at most 90 deg",
+        };
+        ("falloff", message.into())
+    })
+}
+
+/// `None` where the beam's parameters do not fit its cutoff.
+fn falloff_of(beam: &SpotBeam, cutoff: Angle) -> Option<Beam> {
     let cos_cutoff = cutoff.cos();
     match *beam {
-        SpotBeam::Uniform { .. } => Ok(Beam::Uniform { cos_cutoff }),
-        SpotBeam::CosinePower { exponent, .. }
-            if exponent > 0.0 && exponent.is_finite() && degrees <= 90.0 =>
-        {
-            Ok(Beam::CosinePower {
+        SpotBeam::Uniform { .. } => Some(Beam::Uniform { cos_cutoff }),
+        SpotBeam::CosinePower { exponent, .. } => {
+            let fits = exponent > 0.0 && exponent.is_finite() && cutoff.to_degrees() <= 90.0;
+            fits.then_some(Beam::CosinePower {
                 exponent,
                 cos_cutoff: cos_cutoff.max(0.0),
             })
         }
-        SpotBeam::CosinePower { .. } => Err((
-            "falloff",
-            "a power falloff has a positive exponent and a cutoff of at most 90 deg".into(),
-        )),
-        SpotBeam::Smooth { inner, .. }
-            if inner.to_degrees() >= 0.0 && inner.to_degrees() < degrees =>
-        {
-            Ok(Beam::Smooth {
-                cos_inner: inner.cos(),
+        SpotBeam::Smooth { inner, .. } => {
+            let cos_inner = inner.cos();
+            let fits = inner.to_degrees() >= 0.0 && inner < cutoff && cos_inner > cos_cutoff;
+            fits.then_some(Beam::Smooth {
+                cos_inner,
                 cos_cutoff,
             })
         }
-        SpotBeam::Smooth { .. } => Err((
-            "falloff",
-            "the inner half angle lies between 0 and the cutoff".into(),
-        )),
     }
 }

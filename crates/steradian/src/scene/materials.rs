@@ -49,7 +49,8 @@ pub(super) fn prepare(
         sides: Vec::new(),
     };
     for (index, description) in descriptions.iter().enumerate() {
-        if prepared.sides(&description.name).is_some() {
+        let earlier = &descriptions[..index];
+        if earlier.iter().any(|other| other.name == description.name) {
             problems.push(Problem::of(
                 Part::Material(index),
                 format!("material `{}` is defined twice", description.name),
@@ -109,11 +110,12 @@ fn add_two_sided(
         let mut side = |key, name: &str| {
             let sides = prepared.sides(name).filter(|sides| sides[0] == sides[1]);
             if sides.is_none() {
-                problems.push(Problem::at(
-                    Part::Material(index),
-                    key,
-                    prepared.unknown(name),
-                ));
+                let message = if descriptions.iter().any(|other| other.name == name) {
+                    format!("`{name}` has two sides itself: name a material with a model")
+                } else {
+                    prepared.unknown(name)
+                };
+                problems.push(Problem::at(Part::Material(index), key, message));
             }
             sides.map_or(MaterialId::BLACK, |sides| sides[0])
         };

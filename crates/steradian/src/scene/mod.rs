@@ -3,13 +3,17 @@
 mod box_form;
 pub mod description;
 mod forms;
+mod geometry;
 mod lights;
 mod materials;
 mod problem;
+mod receivers;
 mod sensors;
 
+use problem::Fault;
 pub use problem::{Part, Place, Problem};
 
+use crate::geometry::Point;
 use crate::light::{Kind, Light, LightId};
 use crate::material::{Material, MaterialId};
 use crate::quantity::LuminousEfficacy;
@@ -47,21 +51,30 @@ pub struct Scene {
 
 impl Scene {
     /// Validates `description`, or says everything that is wrong with it.
+    ///
+    /// # Errors
+    /// All problems together; those of sensors leave out what other problems already explain.
     pub fn new(description: &SceneDescription) -> Result<Self, Vec<Problem>> {
         let mut problems = Vec::new();
-        let lanes = lanes(description, &mut problems);
-        let efficacy = efficacy(description, &mut problems);
-        let materials = materials::prepare(&description.materials, &lanes, &mut problems);
-        let mut forms = forms::prepare(&description.shapes, &materials, &mut problems);
+        match Self::prepare(description, &mut problems) {
+            Some(scene) if problems.is_empty() => Ok(scene),
+            _ => Err(problems),
+        }
+    }
+
+    fn prepare(description: &SceneDescription, problems: &mut Vec<Problem>) -> Option<Self> {
+        let lanes = lanes(description, problems)?;
+        let efficacy = efficacy(description, problems);
+        let materials = materials::prepare(&description.materials, &lanes, problems);
+        let mut forms = forms::prepare(&description.shapes, &materials, problems);
         let placed = std::mem::take(&mut forms.placed);
         let mut lights = lights::Builder::new(&lanes, efficacy);
-        lights.add_emission(&description.shapes, &mut forms, &placed, &mut problems);
-        lights.add_lights(&description.lights, &mut problems);
-        if !problems.is_empty() {
-            return Err(problems);
-        }
-        let surfaces = Surfaces::new(placed)
-            .map_err(|error| vec![Problem::of(Part::Scene, error.to_string())])?;
+        lights.add_emission(&description.shapes, &mut forms, &placed, problems);
+        lights.add_lights(&description.lights, problems);
+        check_light(description, problems);
+        let surfaces = Surfaces::new(placed, anchor(description))
+            .map_err(|error| problems.push(Problem::of(Part::Scene, error.to_string())))
+            .ok()?;
         let context = sensors::Context {
             lanes: &lanes,
             efficacy,
@@ -70,17 +83,8 @@ impl Scene {
             lights: &lights,
             description,
         };
-        let sensors = sensors::prepare(&context, &mut problems);
-        if lights.lights.is_empty() {
-            problems.push(
-                Problem::of(Part::Scene, "the scene has no light")
-                    .with_hint("add a [[lights]] entry, or `emission` to a shape"),
-            );
-        }
-        if !problems.is_empty() {
-            return Err(problems);
-        }
-        Ok(Self {
+        let sensors = sensors::prepare(&context, problems);
+        Some(Self {
             name: description.name.clone(),
             links_watts_and_lumens: sensors::crosses(&sensors, &lights),
             efficacy,
@@ -183,14 +187,34 @@ impl Scene {
     }
 }
 
-fn lanes(description: &SceneDescription, problems: &mut Vec<Problem>) -> Lanes {
+fn lanes(description: &SceneDescription, problems: &mut Vec<Problem>) -> Option<Lanes> {
     match &description.spectrum {
-        SpectrumMode::Rgb => Lanes::rgb(),
-        SpectrumMode::Broadband { bands } => Lanes::broadband(bands).unwrap_or_else(|error| {
-            problems.push(Problem::at(Part::Scene, "spectrum", error.to_string()));
-            Lanes::rgb()
-        }),
+        SpectrumMode::Rgb => Some(Lanes::rgb()),
+        SpectrumMode::Broadband { bands } => Lanes::broadband(bands)
+            .map_err(|error| {
+                problems.push(Problem::at(Part::Scene, "spectrum", error.to_string()));
+            })
+            .ok(),
     }
+}
+
+fn check_light(description: &SceneDescription, problems: &mut Vec<Problem>) {
+    let mut shapes = description.shapes.iter();
+    if description.lights.is_empty() && shapes.all(|shape| shape.emission.is_none()) {
+        problems.push(
+            Problem::of(Part::Scene, "the scene has no light")
+                .with_hint("add a [[lights]] entry, or `emission` to a shape"),
+        );
+    }
+}
+
+/// Where the first sensor is that is at a place.
+fn anchor(description: &SceneDescription) -> Point {
+    let sensors = description.sensors.iter();
+    let mut places = sensors.filter_map(|sensor| sensor.kind.place());
+    places
+        .find(|place| place.is_finite())
+        .unwrap_or(Point::ORIGIN)
 }
 
 fn efficacy(description: &SceneDescription, problems: &mut Vec<Problem>) -> f64 {
@@ -203,3 +227,6 @@ fn efficacy(description: &SceneDescription, problems: &mut Vec<Problem>) -> f64 
     }
     stated
 }
+
+#[cfg(test)]
+mod tests;

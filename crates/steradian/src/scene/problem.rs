@@ -26,6 +26,9 @@ pub struct Place {
     pub key: Option<&'static str>,
 }
 
+/// The key that is wrong, and what is wrong with it.
+pub(super) type Fault = (&'static str, String);
+
 /// Something wrong with a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {

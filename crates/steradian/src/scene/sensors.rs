@@ -1,17 +1,16 @@
-//! Sensors: receivers in world coordinates, what they sit on, and what they report.
+//! Sensors: what they measure in world coordinates, and what they report.
 
-use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
+use std::cell::LazyCell;
 
 use super::description::{self, Receivers, SceneDescription, SensorDescription, SensorKind, Side};
-use super::forms::{Forms, virtual_form};
+use super::forms::Forms;
+use super::geometry::virtual_form;
 use super::lights::Builder;
-use super::{Part, Problem};
-use crate::geometry::{Direction, Point, Vector};
-use crate::sampling::{block, hash};
-use crate::sensor::{
-    Camera, FluxOf, FluxSurface, Kind, Readout, Receiver, Response, Sensor, SitsOn, readout,
-};
-use crate::shape::{ShapeId, Surfaces};
+use super::receivers::{direction_of, no_points};
+use super::{Fault, Part, Problem};
+use crate::geometry::{Point, Vector};
+use crate::sensor::{Camera, FluxOf, FluxSurface, Kind, Readout, Response, Sensor, readout};
+use crate::shape::{ShapeId, Solid, Surfaces};
 use crate::spectrum::Lanes;
 
 /// What preparing a sensor needs to know.
@@ -34,25 +33,24 @@ pub(super) fn prepare(context: &Context, problems: &mut Vec<Problem>) -> Vec<Sen
     }
     let mut sensors = Vec::new();
     for (index, description) in descriptions.iter().enumerate() {
+        let (part, name) = (Part::Sensor(index), &description.name);
         if descriptions[..index]
             .iter()
-            .any(|other| other.name == description.name)
+            .any(|other| other.name == *name)
         {
-            problems.push(Problem::at(
-                Part::Sensor(index),
-                "name",
-                format!("sensor `{}` is defined twice", description.name),
-            ));
+            let message = format!("sensor `{name}` is defined twice");
+            problems.push(Problem::at(part, "name", message));
         }
-        match context.sensor(index, description) {
-            Ok(sensor) => {
-                context.check_position(index, &sensor, problems);
-                sensors.push(sensor);
-            }
-            Err((key, message)) => problems.push(Problem::at(Part::Sensor(index), key, message)),
+        if context.needs_failed_shape(&description.kind) {
+            continue;
+        }
+        match context.sensor(description) {
+            Ok(sensor) => sensors.push((index, sensor)),
+            Err((key, message)) => problems.push(Problem::at(part, key, message)),
         }
     }
-    sensors
+    context.check_positions(&sensors, problems);
+    sensors.into_iter().map(|(_, sensor)| sensor).collect()
 }
 
 /// Whether a reading of `sensors` depends on the link between watts and lumens.
@@ -68,11 +66,9 @@ pub(super) fn crosses(sensors: &[Sensor], lights: &Builder) -> bool {
     (lights.any_radiant && reads(true)) || (lights.any_photometric && reads(false))
 }
 
-type Fault = (&'static str, String);
-
 impl Context<'_> {
-    fn sensor(&self, index: usize, description: &SensorDescription) -> Result<Sensor, Fault> {
-        let kind = self.kind(&description.kind, index)?;
+    fn sensor(&self, description: &SensorDescription) -> Result<Sensor, Fault> {
+        let kind = self.kind(description)?;
         let readouts = self.readouts(
             &kind,
             description.response.unwrap_or(self.description.response),
@@ -85,29 +81,7 @@ impl Context<'_> {
     }
 
     fn readouts(&self, kind: &Kind, response: Response) -> Result<Vec<Readout>, Fault> {
-        let lights = self.lights;
-        let (radiant, photometric) = match response {
-            Response::Auto => (
-                lights.any_radiant || !lights.any_photometric,
-                lights.any_photometric,
-            ),
-            Response::Radiant => (true, false),
-            Response::Photopic => (false, true),
-        };
-        if photometric && self.lanes.light_weights().is_none() {
-            return Err((
-                "response",
-                "no band of this scene carries light: name one `visible`".into(),
-            ));
-        }
-        let crosses = (photometric && lights.any_radiant) || (radiant && lights.any_photometric);
-        if crosses
-            && self.lanes.needs_stated_efficacy()
-            && self.description.luminous_efficacy.is_none()
-        {
-            let message = "watts and lumens are linked in band `total` only by a stated luminous_efficacy: give it in [scene], or use spectrum = \"rgb\" or a band `visible`";
-            return Err(("response", message.into()));
-        }
+        let (radiant, photometric) = self.units(response)?;
         let of = |names| readout::readouts(self.lanes, names, radiant, photometric, self.efficacy);
         Ok(match kind {
             Kind::Irradiance(_) => of(readout::IRRADIANCE.into()),
@@ -125,41 +99,71 @@ impl Context<'_> {
         })
     }
 
-    fn kind(&self, kind: &SensorKind, index: usize) -> Result<Kind, Fault> {
-        match kind {
+    /// Whether watts and whether lumens are reported.
+    fn units(&self, response: Response) -> Result<(bool, bool), Fault> {
+        let lights = self.lights;
+        let (radiant, photometric) = match response {
+            Response::Auto => (
+                lights.any_radiant || !lights.any_photometric,
+                lights.any_photometric,
+            ),
+            Response::Radiant => (true, false),
+            Response::Photopic => (false, true),
+        };
+        if photometric && self.lanes.light_weights().is_none() {
+            let message = "no band of this scene carries light: name one `visible`";
+            return Err(("response", message.into()));
+        }
+        let crosses = (photometric && lights.any_radiant) || (radiant && lights.any_photometric);
+        let stated = self.description.luminous_efficacy.is_some();
+        if crosses && self.lanes.needs_stated_efficacy() && !stated {
+            let message = "watts and lumens are linked in band `total` only by a stated luminous_efficacy: give it in [scene], or use spectrum = \"rgb\" or a band `visible`";
+            return Err(("response", message.into()));
+        }
+        Ok((radiant, photometric))
+    }
+
+    fn kind(&self, sensor: &SensorDescription) -> Result<Kind, Fault> {
+        match &sensor.kind {
             SensorKind::Irradiance(receivers) => {
-                Ok(Kind::Irradiance(self.receivers(receivers, index)?))
+                Ok(Kind::Irradiance(self.receivers(receivers, &sensor.name)?))
             }
             SensorKind::ScalarIrradiance { points } => {
                 let finite = points.iter().all(|point| point.is_finite());
-                if finite && !points.is_empty() {
-                    Ok(Kind::ScalarIrradiance(points.clone()))
-                } else {
-                    Err(no_points("points"))
+                if !finite || points.is_empty() {
+                    return Err(no_points("points"));
                 }
+                Ok(Kind::ScalarIrradiance(points.clone()))
             }
-            SensorKind::Radiance { rays } => {
-                let ray = |&(origin, direction): &(Point, Vector)| {
-                    direction_of("rays", direction).map(|direction| (origin, direction))
-                };
-                let rays: Vec<_> = rays.iter().map(ray).collect::<Result<_, _>>()?;
-                if rays.is_empty() {
-                    Err(no_points("rays"))
-                } else {
-                    Ok(Kind::Radiance(rays))
-                }
-            }
+            SensorKind::Radiance { rays } => radiance(rays),
             SensorKind::Flux { surface, of } => self.flux(surface, *of),
             SensorKind::Camera(camera) => camera_of(camera),
         }
     }
 
-    fn flux(
-        &self,
-        surface: &description::FluxSurface,
-        of: description::FluxOf,
-    ) -> Result<Kind, Fault> {
-        let surface = match surface {
+    fn flux(&self, surface: &description::FluxSurface, of: FluxOf) -> Result<Kind, Fault> {
+        let surface = self.flux_surface(surface)?;
+        let area = match &surface {
+            FluxSurface::Shapes { shapes, .. } => {
+                let area = |id: &ShapeId| self.surfaces.shape(*id).form.area();
+                shapes.iter().map(area).sum()
+            }
+            FluxSurface::Virtual(form) => form.area(),
+        };
+        if of == FluxOf::Absorbed && matches!(surface, FluxSurface::Virtual(_)) {
+            let message =
+                "a surface that does not block light absorbs nothing: use a shape, or of = \"net\"";
+            return Err(("of", message.into()));
+        }
+        if !f64::is_finite(area) {
+            let message = "the flux of an infinite plane is infinite: measure irradiance, or a finite surface";
+            return Err(("shape", message.into()));
+        }
+        Ok(Kind::Flux { surface, area, of })
+    }
+
+    fn flux_surface(&self, surface: &description::FluxSurface) -> Result<FluxSurface, Fault> {
+        Ok(match surface {
             description::FluxSurface::Shape { name, side } => FluxSurface::Shapes {
                 shapes: self.shapes(name)?,
                 front: *side == Side::Front,
@@ -170,34 +174,26 @@ impl Context<'_> {
             } => FluxSurface::Virtual(
                 virtual_form(geometry, transform).map_err(|message| ("surface", message))?,
             ),
-        };
-        let area = match &surface {
-            FluxSurface::Shapes { shapes, .. } => shapes
-                .iter()
-                .map(|id| self.surfaces.shape(*id).form.area())
-                .sum(),
-            FluxSurface::Virtual(form) => form.area(),
-        };
-        let of = match of {
-            description::FluxOf::Incident => FluxOf::Incident,
-            description::FluxOf::Leaving => FluxOf::Leaving,
-            description::FluxOf::Absorbed => FluxOf::Absorbed,
-            description::FluxOf::Net => FluxOf::Net,
-        };
-        if of == FluxOf::Absorbed && matches!(surface, FluxSurface::Virtual(_)) {
-            return Err((
-                "of",
-                "a surface that does not block light absorbs nothing: use a shape, or of = \"net\""
-                    .into(),
-            ));
-        }
-        if !f64::is_finite(area) {
-            return Err(("shape", "the flux of an infinite plane is infinite: measure irradiance, or a finite surface".into()));
-        }
-        Ok(Kind::Flux { surface, area, of })
+        })
     }
 
-    fn shapes(&self, name: &str) -> Result<Vec<ShapeId>, Fault> {
+    /// Whether a sensor is about a shape that has a problem of its own, which says enough.
+    fn needs_failed_shape(&self, kind: &SensorKind) -> bool {
+        let name = match kind {
+            SensorKind::Irradiance(Receivers::Shape { shape, .. }) => shape,
+            SensorKind::Flux {
+                surface: description::FluxSurface::Shape { name, .. },
+                ..
+            } => name,
+            _ => return false,
+        };
+        let mut described = self.description.shapes.iter();
+        described.any(|shape| shape.name.as_ref() == Some(name))
+            && self.forms.named(&self.description.shapes, name).is_empty()
+    }
+
+    /// The shapes of this name.
+    pub(super) fn shapes(&self, name: &str) -> Result<Vec<ShapeId>, Fault> {
         let shapes = self.forms.named(&self.description.shapes, name);
         if shapes.is_empty() {
             let known: Vec<_> = self
@@ -217,167 +213,54 @@ impl Context<'_> {
         Ok(shapes)
     }
 
-    fn receivers(&self, receivers: &Receivers, index: usize) -> Result<Vec<Receiver>, Fault> {
-        let points: Vec<(Point, Direction)> = match receivers {
-            Receivers::Points(points) => points
-                .iter()
-                .map(|&(point, normal)| Ok((point, direction_of("points", normal)?)))
-                .collect::<Result<_, Fault>>()?,
-            Receivers::Grid {
-                origin,
-                edges,
-                count,
-                normal,
-            } => grid(*origin, *edges, *count, *normal)?,
-            Receivers::Shape {
-                shape,
-                side,
-                count,
-                offset,
-            } => self.over_shape(shape, *side, *count, *offset, index)?,
-        };
-        if points.is_empty() || points.iter().any(|(point, _)| !point.is_finite()) {
-            return Err(no_points("points"));
-        }
-        Ok(self.receivers_at(&points))
-    }
-
-    /// Points of uniform density by area, the same in every run.
-    fn over_shape(
-        &self,
-        name: &str,
-        side: Side,
-        count: u32,
-        offset: f64,
-        index: usize,
-    ) -> Result<Vec<(Point, Direction)>, Fault> {
-        let shapes = self.shapes(name)?;
-        let key = hash::combine(hash::key_of_name(name), index as u64);
-        let draw = |i: u32| {
-            let [u, v, choice, _] = block::sample(key, i, 0).map(f64::from);
-            let id = shapes[((choice * shapes.len() as f64) as usize).min(shapes.len() - 1)];
-            let sample = self.surfaces.shape(id).form.sample_area([u, v])?;
-            let normal = if side == Side::Front {
-                sample.normal
-            } else {
-                -sample.normal
-            };
-            Some((sample.point + normal.to_vector() * offset, normal))
-        };
-        let points: Vec<_> = (0..count.saturating_mul(64))
-            .filter_map(draw)
-            .take(count as usize)
-            .collect();
-        if points.len() < count as usize {
-            Err(("shape", format!("points cannot be spread over `{name}`")))
-        } else {
-            Ok(points)
-        }
-    }
-
-    /// Looks from a little above each point back down for the surface it lies on.
-    fn receivers_at(&self, points: &[(Point, Direction)]) -> Vec<Receiver> {
-        let reach = self.surfaces.clearance();
-        let mut rays = RayBatch::default();
-        for (point, normal) in points {
-            let start = *point + normal.to_vector() * reach;
-            let down = (-normal.to_vector()).to_array().map(|x| x as f32);
-            rays.push(self.surfaces.to_kernel(start), down, 2.0 * reach as f32);
-        }
-        let mut hits = HitBatch::default();
-        self.surfaces
-            .closest(&rays, &mut hits, InstructionSet::detect());
-        let found = hits.primitive.iter().zip(points);
-        found
-            .map(|(&primitive, &(position, normal))| {
-                self.receiver(position, normal, primitive, reach)
-            })
-            .collect()
-    }
-
-    fn receiver(&self, position: Point, normal: Direction, primitive: u32, reach: f64) -> Receiver {
-        if primitive == MISS {
-            return Receiver {
-                position,
-                normal,
-                sits_on: None,
-                clearance: 0.0,
-            };
-        }
-        let id = self.surfaces.shape_of(primitive);
-        let front = normal.dot(self.surfaces.normal_at(primitive, position)) > 0.0;
-        let side = if front { "front" } else { "back" }.to_string();
-        let sits_on = Some(SitsOn {
-            shape: self.forms.names[id.0 as usize].clone(),
-            side,
-        });
-        Receiver {
-            position,
-            normal,
-            sits_on,
-            clearance: reach,
-        }
-    }
-
     /// A sensor within a solid sees nothing but its inside, which is never what was meant.
-    fn check_position(&self, index: usize, sensor: &Sensor, problems: &mut Vec<Problem>) {
-        let (key, points): (_, Vec<Point>) = match &sensor.kind {
-            Kind::Irradiance(receivers) => (
-                "points",
-                receivers.iter().map(|receiver| receiver.position).collect(),
-            ),
-            Kind::ScalarIrradiance(points) => ("points", points.clone()),
-            Kind::Radiance(rays) => ("rays", rays.iter().map(|ray| ray.0).collect()),
-            Kind::Camera(camera) => ("position", vec![camera.position]),
-            Kind::Flux { .. } => return,
-        };
+    fn check_positions(&self, sensors: &[(usize, Sensor)], problems: &mut Vec<Problem>) {
         let margin = self.surfaces.clearance();
         for (shape, name) in self.surfaces.shapes().iter().zip(&self.forms.names) {
-            let inside = |point: &&Point| shape.form.encloses(**point, margin);
-            if let Some(point) = points.iter().find(inside) {
-                let message = format!(
-                    "sensor `{}` at {:?} lies inside the solid `{name}`",
-                    sensor.name,
-                    point.to_array()
-                );
-                problems.push(
-                    Problem::at(Part::Sensor(index), key, message)
-                        .with_hint("if the shape is a room, say `inside = true`"),
-                );
+            let Some(bounds) = shape.form.bounds() else {
+                continue;
+            };
+            let solid = LazyCell::new(|| Solid::of(&shape.form));
+            let encloses = |point: Point| solid.is_some_and(|solid| solid.encloses(point, margin));
+            for (index, sensor) in sensors {
+                let (key, points) = positions(&sensor.kind);
+                let inside = |point: &Point| bounds.contains(*point) && encloses(*point);
+                if let Some(point) = points.into_iter().find(inside) {
+                    let (own, at) = (&sensor.name, point.to_array());
+                    let message =
+                        format!("sensor `{own}` at {at:?} lies inside the solid `{name}`");
+                    problems.push(
+                        Problem::at(Part::Sensor(*index), key, message)
+                            .with_hint("if the shape is a room, say `inside = true`"),
+                    );
+                }
             }
         }
     }
 }
 
-fn no_points(key: &'static str) -> Fault {
-    (
-        key,
-        "give at least one point, with finite coordinates".into(),
-    )
+/// Where a sensor is, and the key that says so; a surface is nowhere in particular.
+fn positions(kind: &Kind) -> (&'static str, Vec<Point>) {
+    match kind {
+        Kind::Irradiance(receivers) => {
+            let position = receivers.iter().map(|receiver| receiver.position);
+            ("points", position.collect())
+        }
+        Kind::ScalarIrradiance(points) => ("points", points.clone()),
+        Kind::Radiance(rays) => ("rays", rays.iter().map(|ray| ray.0).collect()),
+        Kind::Camera(camera) => ("position", vec![camera.position]),
+        Kind::Flux { .. } => ("surface", vec![]),
+    }
 }
 
-fn direction_of(key: &'static str, vector: Vector) -> Result<Direction, Fault> {
-    Direction::new(vector).map_err(|_| (key, "a normal or direction is finite and not zero".into()))
-}
-
-/// Cell centres, row by row along the first edge.
-fn grid(
-    origin: Point,
-    edges: [Vector; 2],
-    count: [u32; 2],
-    normal: Option<Vector>,
-) -> Result<Vec<(Point, Direction)>, Fault> {
-    let normal = direction_of("grid", normal.unwrap_or(edges[0].cross(edges[1])))?;
-    let at = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
-    let row = |j: u32| {
-        (0..count[0]).map(move |i| {
-            (
-                origin + edges[0] * at(i, count[0]) + edges[1] * at(j, count[1]),
-                normal,
-            )
-        })
-    };
-    Ok((0..count[1]).flat_map(row).collect())
+fn radiance(rays: &[(Point, Vector)]) -> Result<Kind, Fault> {
+    if rays.is_empty() || rays.iter().any(|(origin, _)| !origin.is_finite()) {
+        return Err(no_points("rays"));
+    }
+    let rays = rays
+        .iter()
+        .map(|&(origin, direction)| Ok((origin, direction_of("rays", direction)?)));
+    Ok(Kind::Radiance(rays.collect::<Result<_, Fault>>()?))
 }
 
 fn camera_of(camera: &description::CameraDescription) -> Result<Kind, Fault> {

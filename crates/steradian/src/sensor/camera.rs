@@ -61,3 +61,50 @@ impl Camera {
         [self.forward, self.right, self.up]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> Camera {
+        let (eye, target) = (Point::new(1.0, 1.0, 1.0), Point::new(1.0, 5.0, 1.0));
+        let up = Vector::new(0.0, 0.3, 2.0);
+        Camera::new(eye, target, up, Angle::from_degrees(90.0), [400, 200]).unwrap()
+    }
+
+    #[test]
+    fn the_middle_looks_ahead_and_the_edges_along_the_field_of_view() {
+        let expected = [
+            ([200.0, 100.0], [0.0, 1.0, 0.0]),
+            ([400.0, 100.0], [1.0, 1.0, 0.0]),
+            ([0.0, 100.0], [-1.0, 1.0, 0.0]),
+            ([200.0, 0.0], [0.0, 1.0, 0.5]),
+            ([200.0, 200.0], [0.0, 1.0, -0.5]),
+        ];
+        for (film, direction) in expected {
+            let found = camera().direction(film);
+            assert!(
+                (found - Vector::from(direction)).length() < 1e-15,
+                "{film:?}: {found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn another_resolution_shows_the_same_view() {
+        let small = camera().with_resolution([40, 20]);
+        let difference = small.direction([7.0, 3.0]) - camera().direction([70.0, 30.0]);
+        assert!(difference.length() < 1e-15);
+        assert_eq!(small.axes(), camera().axes());
+    }
+
+    #[test]
+    fn a_camera_needs_a_direction_and_an_up() {
+        let fov = Angle::from_degrees(60.0);
+        let new = |target, up| Camera::new(Point::ORIGIN, target, up, fov, [2, 2]);
+        let (x, z) = (Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 0.0, 1.0));
+        assert!(new(Point::ORIGIN, z).is_none());
+        assert!(new(Point::ORIGIN + x, x * -2.0).is_none());
+        assert!(new(Point::ORIGIN + x * f64::NAN, z).is_none());
+    }
+}

@@ -42,14 +42,15 @@ pub struct Receiver {
     pub clearance: f64,
 }
 
-/// Which flux is counted: incident·a + (incident, reflected)·b + emitted·c.
-#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+/// Which flux is counted.
+#[derive(Copy, Clone, Debug, Default, PartialEq, Eq)]
 pub enum FluxOf {
     /// What arrives.
+    #[default]
     Incident,
-    /// What is emitted and reflected.
+    /// What leaves: emitted and reflected (or, for a surface that does not block light, what passes the other way).
     Leaving,
-    /// What arrives and is not reflected.
+    /// What arrives and is not reflected (shapes only).
     Absorbed,
     /// Incident minus leaving.
     Net,

@@ -42,3 +42,48 @@ impl Disc {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+    use crate::sampling::testing::{assert_proportional, grid_cell, histogram, independent};
+
+    fn annulus() -> Disc {
+        Disc {
+            center: Point::new(1.0, 2.0, 3.0),
+            normal: Direction::new(Vector::new(1.0, 2.0, 2.0)).unwrap(),
+            radius: 2.0,
+            inner_radius: 1.0,
+        }
+    }
+
+    #[test]
+    fn the_area_of_an_annulus() {
+        assert_eq!(annulus().area(), 3.0 * PI);
+    }
+
+    #[test]
+    fn samples_lie_on_the_annulus() {
+        for u in independent(1, 1000) {
+            let sample = annulus().sample_area(u);
+            let from_center = sample.point - annulus().center;
+            assert!((1.0 - 1e-12..2.0 + 1e-12).contains(&from_center.length()));
+            assert!(sample.normal.dot(from_center).abs() < 1e-14);
+            assert_eq!(sample.normal, annulus().normal);
+        }
+    }
+
+    /// Cells of equal area: ρ² and φ are uniform.
+    #[test]
+    fn samples_are_uniform_by_area() {
+        let frame = Frame::from_normal(annulus().normal);
+        let cell = |u| {
+            let local = frame.vector_to_local(annulus().sample_area(u).point - annulus().center);
+            let turn = libm::atan2(local.y, local.x) / TAU + 0.5;
+            grid_cell([(local.length_squared() - 1.0) / 3.0, turn], 8)
+        };
+        let counts = histogram(64, independent(2, 65_536).map(cell));
+        assert_proportional(&counts, &[1.0; 64]);
+    }
+}

@@ -1,6 +1,6 @@
 //! One shape in world coordinates.
 
-use crate::geometry::{Direction, Point};
+use crate::geometry::{Bounds, Direction, Point, Vector};
 
 use super::{Disc, Parallelogram, Sphere, TriangleMesh};
 
@@ -66,7 +66,7 @@ impl Form {
         }
     }
 
-    /// What the form is called in messages.
+    /// What it is called in lists; polygons and boxes are meshes here.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Parallelogram(_) => "rectangle",
@@ -77,29 +77,19 @@ impl Form {
         }
     }
 
-    /// Whether `point` lies within a solid of which this is the outer surface (by more than `margin` metres).
-    pub fn encloses(&self, point: Point, margin: f64) -> bool {
+    /// The smallest box around it, a little wide for a disc; `None` for a plane.
+    pub fn bounds(&self) -> Option<Bounds> {
         match self {
-            Self::Sphere(form) if !form.inside && form.ports.is_empty() => {
-                (point - form.center).length() < form.radius - margin
-            }
-            Self::Mesh(mesh) => {
-                mesh.is_closed() && mesh.signed_volume() > 0.0 && winding_number(mesh, point) > 0.9
-            }
-            _ => false,
+            Self::Parallelogram(form) => Some(Bounds::around(form.corners())),
+            Self::Mesh(form) => Some(Bounds::around(form.vertices.iter().copied())),
+            Self::Sphere(form) => Some(ball(form.center, form.radius)),
+            Self::Disc(form) => Some(ball(form.center, form.radius)),
+            Self::Plane { .. } => None,
         }
     }
 }
 
-/// Solid angle of the mesh from `point` over 4π: 1 inside a closed mesh that faces outwards, 0 outside
-/// (Jacobson, Kavan & Sorkine-Hornung 2013), by the triangle formula of Van Oosterom & Strackee (1983).
-fn winding_number(mesh: &TriangleMesh, point: Point) -> f64 {
-    let solid_angles = (0..mesh.triangles.len()).map(|index| {
-        let [a, b, c] = mesh.corners(index).map(|corner| corner - point);
-        let (la, lb, lc) = (a.length(), b.length(), c.length());
-        let triple = a.dot(b.cross(c));
-        let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-        2.0 * libm::atan2(triple, denominator)
-    });
-    solid_angles.sum::<f64>() / (4.0 * std::f64::consts::PI)
+fn ball(center: Point, radius: f64) -> Bounds {
+    let corner = Vector::new(radius, radius, radius);
+    Bounds::around([center - corner, center + corner])
 }

@@ -1,8 +1,10 @@
 //! A triangle mesh: area ½ Σ |(b − a) × (c − a)|.
 
+use std::collections::HashMap;
+
 use crate::geometry::{Direction, Point};
 
-use super::AreaSample;
+use super::{AreaSample, Parallelogram};
 
 /// Triangles with the cumulative area that uniform sampling needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,16 +84,153 @@ impl TriangleMesh {
         terms.sum()
     }
 
-    /// True when every edge is shared by exactly two triangles that run along it in opposite ways.
+    /// Whether any triangle spans an area: an angle whose sine is above rounding, 8·2⁻⁵².
+    pub fn has_area(&self) -> bool {
+        (0..self.triangles.len()).any(|index| {
+            let [a, b, c] = self.corners(index);
+            Parallelogram::new(a, [b - a, c - a]).is_some()
+        })
+    }
+
+    /// True when every edge is shared by just two triangles that run along it in opposite ways. Vertices at the same
+    /// place count as one, and triangles that this makes a line do not count.
     pub fn is_closed(&self) -> bool {
-        let mut edges = std::collections::BTreeMap::<(u32, u32), i64>::new();
-        for [a, b, c] in &self.triangles {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                let sign = if from < to { 1 } else { -1 };
-                let entry = edges.entry((*from.min(to), *from.max(to))).or_insert(0);
-                *entry += sign * 4 + 1;
-            }
+        let merged = self.merged_vertices();
+        let triangles = self
+            .triangles
+            .iter()
+            .map(|corners| corners.map(|index| merged[index as usize]));
+        let mut edges: Vec<(u32, u32, bool)> = triangles
+            .filter(|[a, b, c]| a != b && b != c && c != a)
+            .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)])
+            .map(|(from, to)| (from.min(to), from.max(to), from < to))
+            .collect();
+        edges.sort_unstable();
+        let mut shared = edges.chunk_by(|one, other| (one.0, one.1) == (other.0, other.1));
+        !edges.is_empty() && shared.all(|runs| matches!(runs, [one, other] if one.2 != other.2))
+    }
+
+    /// For each vertex the number of the first one at the same place.
+    fn merged_vertices(&self) -> Vec<u32> {
+        let mut first = HashMap::new();
+        let place = |vertex: &Point| vertex.to_array().map(|x| (x + 0.0).to_bits());
+        let numbered = self.vertices.iter().zip(0..);
+        numbered
+            .map(|(vertex, index)| *first.entry(place(vertex)).or_insert(index))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::testing::{assert_proportional, histogram, independent};
+
+    /// A fan of 31 triangles around the origin, with areas 1, 2, … 31 and one of no area.
+    fn fan() -> TriangleMesh {
+        let mut vertices = vec![Point::ORIGIN, Point::new(1.0, 0.0, 0.0)];
+        let mut triangles = vec![[0, 1, 1]];
+        for k in 1..=31 {
+            let [_, last] = [vertices.len() - 2, vertices.len() - 1];
+            let from = vertices[last];
+            let step = f64::from(k) * 2.0 / (from - Point::ORIGIN).length();
+            let outwards = Direction::new(from - Point::ORIGIN).unwrap();
+            vertices.push(from + Direction::Z.cross(outwards) * step);
+            triangles.push([0, last as u32, last as u32 + 1]);
         }
-        !edges.is_empty() && edges.values().all(|count| *count == 2)
+        TriangleMesh::new(vertices, triangles)
+    }
+
+    #[test]
+    fn areas_add_up() {
+        let area: f64 = (1..=31).map(f64::from).sum();
+        assert!((fan().area() - area).abs() < 1e-12 * area);
+        let shares: Vec<f64> = fan().cumulative_share().collect();
+        assert_eq!((shares[0], shares[31]), (0.0, 1.0));
+    }
+
+    #[test]
+    fn triangles_are_chosen_by_area() {
+        let mesh = fan();
+        let face = |u| mesh.sample_area(u).unwrap().face;
+        let counts = histogram(32, independent(6, 65_536).map(face));
+        assert_eq!(counts[0], 0);
+        let areas: Vec<f64> = (1..=31).map(f64::from).collect();
+        assert_proportional(&counts[1..], &areas);
+    }
+
+    /// Each of the 64 triangles that three halvings give holds as many.
+    #[test]
+    fn samples_are_uniform_within_a_triangle() {
+        let corners = [[0.0, 0.0, 0.0], [4.0, 1.0, 0.0], [1.0, 3.0, 0.0]];
+        let mesh = TriangleMesh::new(corners.map(Point::from).to_vec(), vec![[0, 1, 2]]);
+        let cell = |u| {
+            let p = mesh.sample_area(u).unwrap().point;
+            let s = (3.0 * p.x - p.y) / 11.0;
+            let t = (4.0 * p.y - p.x) / 11.0;
+            subdivision([1.0 - s - t, s, t], 3)
+        };
+        let counts = histogram(64, independent(7, 65_536).map(cell));
+        assert_proportional(&counts, &[1.0; 64]);
+    }
+
+    fn subdivision(weights: [f64; 3], depth: u32) -> usize {
+        if depth == 0 {
+            return 0;
+        }
+        let corner = weights.iter().position(|weight| *weight > 0.5);
+        let doubled = match corner {
+            Some(corner) => {
+                let mut doubled = weights.map(|weight| 2.0 * weight);
+                doubled[corner] -= 1.0;
+                doubled
+            }
+            None => weights.map(|weight| 1.0 - 2.0 * weight),
+        };
+        corner.map_or(3, |corner| corner) * 4_usize.pow(depth - 1) + subdivision(doubled, depth - 1)
+    }
+
+    #[test]
+    fn samples_face_the_front() {
+        let sample = fan().sample_area([0.5, 0.5]).unwrap();
+        assert_eq!(sample.normal, Direction::Z);
+        assert_eq!(
+            TriangleMesh::new(vec![], vec![]).sample_area([0.5; 2]),
+            None
+        );
+    }
+
+    #[test]
+    fn triangles_on_a_line_have_no_area() {
+        let along = |t: f64| Point::new(0.1, 0.2, 0.3).lerp(Point::new(0.7, 0.3, 0.9), t);
+        let line = vec![along(0.0), along(0.3), along(1.0)];
+        assert!(!TriangleMesh::new(line, vec![[0, 1, 2]]).has_area());
+        assert!(fan().has_area());
+    }
+
+    #[test]
+    fn a_tetrahedron_is_closed_also_with_vertices_of_its_own_for_each_face() {
+        let corners = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+        ];
+        let corners = corners.map(Point::from).to_vec();
+        let faces = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let solid = TriangleMesh::new(corners.clone(), faces.clone());
+        assert!(solid.is_closed());
+        assert!((solid.signed_volume() - 1.0 / 6.0).abs() < 1e-15);
+        let split = faces.iter().flatten().map(|&index| corners[index as usize]);
+        let own = (0..4)
+            .map(|face| [3 * face, 3 * face + 1, 3 * face + 2])
+            .collect();
+        assert!(TriangleMesh::new(split.collect(), own).is_closed());
+        let open = TriangleMesh::new(corners.clone(), faces[..3].to_vec());
+        assert!(!open.is_closed());
+        let turned = vec![[0, 1, 2], faces[1], faces[2], faces[3]];
+        assert!(!TriangleMesh::new(corners.clone(), turned).is_closed());
+        let twice = [faces.clone(), faces].concat();
+        assert!(!TriangleMesh::new(corners, twice).is_closed());
     }
 }

@@ -14,6 +14,7 @@ mod form;
 mod mesh;
 mod parallelogram;
 pub mod quadrature;
+mod solid;
 mod sphere;
 mod surfaces;
 
@@ -21,5 +22,6 @@ pub use disc::Disc;
 pub use form::{AreaSample, Form};
 pub use mesh::TriangleMesh;
 pub use parallelogram::Parallelogram;
+pub use solid::Solid;
 pub use sphere::{Sphere, SpherePort};
 pub use surfaces::{PartId, Placed, QuadricRecord, ShapeId, Surfaces, TriangleRecord};

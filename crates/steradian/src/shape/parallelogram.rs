@@ -18,12 +18,13 @@ pub struct Parallelogram {
 }
 
 impl Parallelogram {
-    /// `None` when the edges span no area.
+    /// `None` when the edges span no area: sin(e₁, e₂) is within rounding, 8·2⁻⁵², of 0.
     pub fn new(origin: Point, edges: [Vector; 2]) -> Option<Self> {
         let cross = edges[0].cross(edges[1]);
         let area = cross.length();
         let normal = Direction::new(cross).ok()?;
-        (area.is_finite() && area > 0.0).then_some(Self {
+        let rounding = 8.0 * f64::EPSILON * edges[0].length() * edges[1].length();
+        (area.is_finite() && area > rounding).then_some(Self {
             origin,
             edges,
             normal,
@@ -49,5 +50,45 @@ impl Parallelogram {
             normal: self.normal,
             face: 0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::testing::{assert_proportional, grid_cell, histogram, independent};
+
+    fn skew() -> Parallelogram {
+        let edges = [Vector::new(3.0, 0.0, 0.0), Vector::new(1.0, 2.0, 0.0)];
+        Parallelogram::new(Point::new(1.0, 1.0, 5.0), edges).unwrap()
+    }
+
+    #[test]
+    fn area_normal_and_corners() {
+        assert_eq!((skew().area, skew().normal), (6.0, Direction::Z));
+        let corners = skew().corners().map(Point::to_array);
+        let expected = [[1.0, 1.0], [4.0, 1.0], [5.0, 3.0], [2.0, 3.0]];
+        assert_eq!(corners, expected.map(|[x, y]| [x, y, 5.0]));
+    }
+
+    #[test]
+    fn edges_without_area_are_refused() {
+        let along = Vector::new(0.1, 0.2, 0.3);
+        for other in [Vector::ZERO, along * 3.0, -along / 7.0, along * f64::NAN] {
+            assert_eq!(Parallelogram::new(Point::ORIGIN, [along, other]), None);
+        }
+        let slender = [Vector::new(1e3, 0.0, 0.0), Vector::new(1e3, 1e-9, 0.0)];
+        assert!(Parallelogram::new(Point::ORIGIN, slender).is_some());
+    }
+
+    #[test]
+    fn samples_are_uniform_by_area() {
+        let cell = |u| {
+            let Vector { x, y, z } = skew().sample_area(u).point - skew().origin;
+            assert_eq!(z, 0.0);
+            grid_cell([(x - y / 2.0) / 3.0, y / 2.0], 8)
+        };
+        let counts = histogram(64, independent(3, 65_536).map(cell));
+        assert_proportional(&counts, &[1.0; 64]);
     }
 }

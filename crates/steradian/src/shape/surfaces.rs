@@ -10,7 +10,7 @@ use steradian_kernel::{
 
 use crate::geometry::{Bounds, Direction, Point, Vector};
 
-use super::{Form, Sphere};
+use super::{Disc, Form, Sphere, SpherePort};
 
 /// Share of the scene's extent that clears a surface.
 const CLEARANCE: f64 = 4e-6;
@@ -58,6 +58,17 @@ pub struct QuadricRecord {
     pub part: u32,
 }
 
+impl QuadricRecord {
+    fn flat(center: [f64; 3], normal: [f64; 3], part: PartId) -> Self {
+        Self {
+            center,
+            normal,
+            signed_radius: 0.0,
+            part: part.0,
+        }
+    }
+}
+
 /// All shapes of a scene.
 pub struct Surfaces {
     origin: Point,
@@ -71,12 +82,13 @@ pub struct Surfaces {
 }
 
 impl Surfaces {
-    /// Builds the acceleration structure.
-    pub fn new(shapes: Vec<Placed>) -> Result<Self, BuildError> {
+    /// Builds the acceleration structure. `anchor` is where a scene without finite shapes takes place.
+    ///
+    /// # Errors
+    /// If a coordinate is not finite or too far from the middle of the scene.
+    pub fn new(shapes: Vec<Placed>, anchor: Point) -> Result<Self, BuildError> {
         let bounds = bounds_of(&shapes);
-        let origin = bounds
-            .and_then(|bounds| bounds.center())
-            .unwrap_or(Point::ORIGIN);
+        let origin = bounds.and_then(|bounds| bounds.center()).unwrap_or(anchor);
         let mut builder = Builder::new(origin);
         for (index, shape) in shapes.iter().enumerate() {
             builder.add(ShapeId(index as u32), shape);
@@ -158,6 +170,12 @@ impl Surfaces {
                 .map_or(1.0, |bounds| bounds.diagonal().to_metres())
     }
 
+    /// The same for a point that may lie far off the finite shapes, on a plane.
+    pub fn clearance_at(&self, point: Point) -> f64 {
+        self.clearance()
+            .max(CLEARANCE * (point - self.origin).length())
+    }
+
     /// Normal of the front of a primitive near `point`.
     pub fn normal_at(&self, primitive: u32, point: Point) -> Vector {
         if let Some(triangle) = self.triangles.get(primitive as usize) {
@@ -175,7 +193,7 @@ impl Surfaces {
         self.bounds
     }
 
-    /// Bytes of the acceleration structure.
+    /// The acceleration structure.
     pub fn accelerator(&self) -> &Accelerator {
         &self.accelerator
     }
@@ -192,23 +210,8 @@ impl Surfaces {
 }
 
 fn bounds_of(shapes: &[Placed]) -> Option<Bounds> {
-    let boxes = shapes.iter().filter_map(|shape| form_bounds(&shape.form));
-    boxes.reduce(|a, b| a.union(b))
-}
-
-fn form_bounds(form: &Form) -> Option<Bounds> {
-    match form {
-        Form::Parallelogram(form) => Some(Bounds::around(form.corners())),
-        Form::Mesh(form) => Some(Bounds::around(form.vertices.iter().copied())),
-        Form::Sphere(form) => Some(ball(form.center, form.radius)),
-        Form::Disc(form) => Some(ball(form.center, form.radius)),
-        Form::Plane { .. } => None,
-    }
-}
-
-fn ball(center: Point, radius: f64) -> Bounds {
-    let corner = Vector::new(radius, radius, radius);
-    Bounds::around([center - corner, center + corner])
+    let boxes = shapes.iter().filter_map(|shape| shape.form.bounds());
+    boxes.reduce(Bounds::union)
 }
 
 /// Collects the kernel's geometry and the records beside it.
@@ -249,73 +252,45 @@ impl Builder {
                 }
             }
             Form::Sphere(sphere) => self.sphere(id, shape.parts[0], sphere),
-            Form::Disc(disc) => {
-                let (center, normal) = (self.rebased(disc.center), disc.normal.to_array());
-                let (radius, inner_radius) = (disc.radius, disc.inner_radius);
-                let quadric = Quadric::Disc {
-                    center,
-                    normal,
-                    radius,
-                    inner_radius,
-                };
-                self.quadric(
-                    id,
-                    quadric,
-                    QuadricRecord {
-                        center,
-                        normal,
-                        signed_radius: 0.0,
-                        part: shape.parts[0].0,
-                    },
-                );
-            }
+            Form::Disc(disc) => self.disc(id, shape.parts[0], disc),
             Form::Plane { point, normal } => {
-                let (center, normal) = (self.rebased(*point), normal.to_array());
-                let quadric = Quadric::Plane {
-                    point: center,
-                    normal,
-                };
-                self.quadric(
-                    id,
-                    quadric,
-                    QuadricRecord {
-                        center,
-                        normal,
-                        signed_radius: 0.0,
-                        part: shape.parts[0].0,
-                    },
-                );
+                let (point, normal) = (self.rebased(*point), normal.to_array());
+                let record = QuadricRecord::flat(point, normal, shape.parts[0]);
+                self.quadric(id, Quadric::Plane { point, normal }, record);
             }
         }
     }
 
+    fn disc(&mut self, id: ShapeId, part: PartId, disc: &Disc) {
+        let (center, normal) = (self.rebased(disc.center), disc.normal.to_array());
+        let quadric = Quadric::Disc {
+            center,
+            normal,
+            radius: disc.radius,
+            inner_radius: disc.inner_radius,
+        };
+        self.quadric(id, quadric, QuadricRecord::flat(center, normal, part));
+    }
+
     fn sphere(&mut self, id: ShapeId, part: PartId, sphere: &Sphere) {
         let center = self.rebased(sphere.center);
-        let cap = |port: &super::SpherePort| Cap {
+        let cap = |port: &SpherePort| Cap {
             direction: port.direction.to_array(),
             cos_half_angle: port.cos_half_angle,
         };
-        let ports = sphere.ports.iter().map(cap).collect();
         let quadric = Quadric::Sphere {
             center,
             radius: sphere.radius,
-            ports,
+            ports: sphere.ports.iter().map(cap).collect(),
         };
-        let signed_radius = if sphere.inside {
-            -sphere.radius
-        } else {
-            sphere.radius
+        let front = if sphere.inside { -1.0 } else { 1.0 };
+        let record = QuadricRecord {
+            center,
+            normal: [0.0; 3],
+            signed_radius: front * sphere.radius,
+            part: part.0,
         };
-        self.quadric(
-            id,
-            quadric,
-            QuadricRecord {
-                center,
-                normal: [0.0; 3],
-                signed_radius,
-                part: part.0,
-            },
-        );
+        self.quadric(id, quadric, record);
     }
 
     fn quadric(&mut self, id: ShapeId, quadric: Quadric, record: QuadricRecord) {
@@ -363,3 +338,6 @@ fn record(corners: [[f32; 3]; 3], part: PartId) -> TriangleRecord {
         part: part.0,
     }
 }
+
+#[cfg(test)]
+mod tests;
