@@ -31,9 +31,11 @@ pub(super) mod tests {
             "samples": [10, 10, 10, 10], "largest": 5.0, "largest_of_sensor": 5.0, "converged": true,
         });
         let point = |index: usize, exact: [f64; 4], replicates: serde_json::Value| {
+            let closed = [replicates.is_null(); 4];
             json!({
                 "index": index, "position": [0.5, 0.0, index], "normal": [0.0, 0.0, 1.0],
-                "sits_on": { "shape": "desk", "side": "front" }, "exact": exact, "replicates": replicates,
+                "sits_on": { "shape": "desk", "side": "front" }, "exact": exact, "closed": closed,
+                "replicates": replicates,
             })
         };
         let irradiance = json!({
