@@ -4,6 +4,10 @@
 //! at most γ(8)·(|a| + |u·e₁| + |v·e₂|) along each axis, with γ(n) = nε/(1 − nε) and ε = 2⁻²⁴; for a quadric the same
 //! bound holds with |c| + r. Rays leave from the point moved along the normal by the bound's extent in that direction.
 //!
+//! A ray that starts in the very plane of a triangle sees it edge-on, and rounding alone decides whether it is met. The
+//! kernel's sheared corners are off by some ε·(|e₁| + |e₂|), so a ray that leaves a triangle starts at least γ(8)·max(|e₁| + |e₂|)
+//! above it, however small the point's coordinates along the normal are.
+//!
 //! Source: M. Pharr, W. Jakob & G. Humphreys, *Physically Based Rendering* (4th ed. 2023), §6.8.
 
 use glam::{DVec3, Vec3};
@@ -43,7 +47,7 @@ pub(super) fn hit(tables: &Tables, rays: &RayBatch, hits: &HitBatch, i: usize) -
     );
     let origin = Vec3::new(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
     let triangles = surfaces.triangles();
-    let (point, normal, extent, part) = if primitive < triangles.len() {
+    let (point, normal, extent, size, part) = if primitive < triangles.len() {
         triangle(&triangles[primitive], hits.u[i], hits.v[i])
     } else {
         quadric(
@@ -56,7 +60,7 @@ pub(super) fn hit(tables: &Tables, rays: &RayBatch, hits: &HitBatch, i: usize) -
     let against = -normal.dot(direction);
     let front = against > 0.0;
     let facing = if front { normal } else { -normal };
-    let clearance = facing.abs().dot(extent) * GAMMA_8;
+    let clearance = facing.abs().dot(extent).max(size) * GAMMA_8;
     Hit {
         place: Place {
             point: point.into(),
@@ -72,15 +76,15 @@ pub(super) fn hit(tables: &Tables, rays: &RayBatch, hits: &HitBatch, i: usize) -
 }
 
 #[inline(always)]
-fn triangle(record: &TriangleRecord, u: f32, v: f32) -> (Vec3, Vec3, Vec3, u32) {
+fn triangle(record: &TriangleRecord, u: f32, v: f32) -> (Vec3, Vec3, Vec3, f32, u32) {
     let origin = Vec3::from_array(record.origin);
-    let along = [
-        Vec3::from_array(record.edges[0]) * u,
-        Vec3::from_array(record.edges[1]) * v,
-    ];
+    let edges = record.edges.map(Vec3::from_array);
+    let along = [edges[0] * u, edges[1] * v];
     let point = origin + along[0] + along[1];
     let extent = origin.abs() + along[0].abs() + along[1].abs();
-    (point, Vec3::from_array(record.normal), extent, record.part)
+    let size = (edges[0].abs() + edges[1].abs()).max_element();
+    let normal = Vec3::from_array(record.normal);
+    (point, normal, extent, size, record.part)
 }
 
 /// The hit in f64, moved onto the surface.
@@ -89,7 +93,7 @@ fn quadric(
     origin: Vec3,
     direction: Vec3,
     t: f32,
-) -> (Vec3, Vec3, Vec3, u32) {
+) -> (Vec3, Vec3, Vec3, f32, u32) {
     let center = DVec3::from_array(record.center);
     let reached = origin.as_dvec3() + direction.as_dvec3() * f64::from(t);
     let radius = record.signed_radius.abs();
@@ -104,5 +108,6 @@ fn quadric(
         )
     };
     let extent = point.as_vec3().abs() + center.as_vec3().abs() + Vec3::splat(radius as f32);
-    (point.as_vec3(), normal.as_vec3(), extent, record.part)
+    let (point, normal) = (point.as_vec3(), normal.as_vec3());
+    (point, normal, extent, 0.0, record.part)
 }

@@ -233,6 +233,11 @@ impl<'a> Meters<'a> {
                 } else {
                     reflectance.map(|lane| 1.0 - lane)
                 };
+                // A path that starts with a weight below 1 would end by roulette at once: the sum takes it instead.
+                let lanes = &weights[..self.tracer.tables.lanes];
+                let greatest = lanes.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
+                workspace.sign[identity.0 as usize] = f64::from(greatest);
+                weights = weights.map(|weight| weight / greatest);
             }
             (FluxOf::Absorbed, None) => {}
         }

@@ -9,8 +9,9 @@
 //! whose weighted contribution ρ·L·cosθ·w_a/p_a never exceeds ρ·L·cosθ/(2 p_b): the sample of a light is bounded by the
 //! density of the surface's own sampling, and the other way round, so no weight is unbounded near a light.
 //!
-//! A path ends by roulette with survival probability q = min(1, greatest lane of its throughput), never capped below
-//! 1, so that the throughput of a survivor never exceeds 1; without roulette only `max_depth` ends it.
+//! A path ends by roulette with survival probability q = min(1, 4 × greatest lane of its throughput): the first
+//! reflections are followed without its noise, and the throughput of a survivor is never raised above ¼, so that weights
+//! stay bounded at any reflectance; without roulette only `max_depth` ends a path.
 //!
 //! Sources: J. Kajiya, *The rendering equation* (SIGGRAPH 1986); E. Veach, *Robust Monte Carlo methods for light
 //! transport simulation* (1997), eq. 9.13 (power heuristic) and §10.4.1 (roulette).

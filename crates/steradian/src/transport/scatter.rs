@@ -87,7 +87,7 @@ impl Work for LeaveDiffusely<'_> {
 }
 
 impl LeaveDiffusely<'_> {
-    /// 1/q of the survivors, 0 of the others, with q = min(1, greatest lane of the throughput).
+    /// 1/q of the survivors, 0 of the others.
     #[inline(always)]
     fn survival(&self) -> [f32; super::columns::BATCH] {
         let mut survival = [1.0; super::columns::BATCH];
@@ -99,7 +99,7 @@ impl LeaveDiffusely<'_> {
         let (keys, indices) = (&self.identity.key[..n], &self.identity.index[..n]);
         for i in 0..n {
             let greatest = a[i].max(b[i]).max(c[i].max(d[i])) * PI;
-            let q = greatest.min(1.0);
+            let q = survival_probability(greatest, segment);
             let survives = roulette_number(keys[i], indices[i], segment) < q;
             survival[i] = if survives { 1.0 / q } else { 0.0 };
         }
@@ -166,10 +166,10 @@ fn leave_mirrors(workspace: &mut Workspace, segment: u32) {
             mirrors.identity.key[i],
             mirrors.identity.index[i],
         );
-        let q = response
+        let greatest = response
             .iter()
-            .fold(0.0_f32, |greatest, lane| greatest.max(*lane))
-            .min(1.0);
+            .fold(0.0_f32, |greatest, lane| greatest.max(*lane));
+        let q = survival_probability(greatest, segment);
         if roulette_number(identity.1, identity.2, segment) >= q {
             continue;
         }
@@ -192,6 +192,19 @@ fn leave_mirrors(workspace: &mut Workspace, segment: u32) {
             light,
         });
     }
+}
+
+/// Throughput below which roulette begins.
+const ROULETTE_BELOW: f32 = 0.25;
+/// Segments after which a path that loses nothing is ended too, or light between perfect mirrors would be followed for ever.
+const ENDLESS: u32 = 4096;
+
+/// q = min(1, throughput / ¼): a survivor's throughput is never above ¼ nor above what it was, so weights stay bounded, and
+/// the first, brightest reflections are followed without the noise of roulette.
+#[inline(always)]
+fn survival_probability(throughput: f32, segment: u32) -> f32 {
+    let most = if segment < ENDLESS { 1.0 } else { 0.99 };
+    (throughput * (1.0 / ROULETTE_BELOW)).min(most)
 }
 
 /// A uniform number in [0, 1) that depends on the path and the segment only.
