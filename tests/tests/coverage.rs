@@ -12,8 +12,9 @@
 use steradian::estimation::{
     Estimate, Integrand, Plan, SampleBatch, Silent, Stopping, Tally, estimate,
 };
-use steradian::sampling::block;
+use steradian::sampling::block::FillBlock;
 use steradian::sampling::hash::key_of_name;
+use steradian_kernel::InstructionSet;
 
 type Point = [[f32; 4]; BLOCKS];
 const BLOCKS: usize = 2;
@@ -130,12 +131,13 @@ impl Workspace {
             columns
                 .iter_mut()
                 .for_each(|column| column.resize(count as usize, 0.0));
-            block::fill_block(
-                &self.keys,
-                &self.indices,
-                number as u32,
-                columns.each_mut().map(|column| &mut column[..]),
-            );
+            let out = columns.each_mut().map(|column| &mut column[..]);
+            InstructionSet::detect().run(FillBlock {
+                keys: &self.keys,
+                indices: &self.indices,
+                block: number as u32,
+                out,
+            });
         }
     }
 }
