@@ -95,7 +95,8 @@ impl Panel {
         let ratio = cos_theta * FRAC_1_PI / density;
         let weight = cos_theta / (density * (1.0 + ratio * ratio));
         let usable = seen > 0.0 && cos_theta > 0.0 && density > 0.0 && density < f32::INFINITY;
-        let off = clearance(point, self.area.sqrt()).copysign(cos_light);
+        let size = self.area.sqrt() + squared * inverse;
+        let off = clearance(point, size).copysign(cos_light);
         let end = std::array::from_fn(|k| point[k] + self.normal[k] * off);
         (end, if usable { weight } else { 0.0 })
     }

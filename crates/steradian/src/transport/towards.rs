@@ -126,7 +126,8 @@ fn towards_point(vertex: Vec3, position: Vec3, falloff: impl Fn(Vec3) -> f32) ->
 fn by_area(vertex: Vec3, point: Vec3, normal: Vec3, area: f32, two_sided: bool) -> Option<Towards> {
     let span = point - vertex;
     let squared = span.length_squared();
-    let direction = span / squared.sqrt();
+    let distance = squared.sqrt();
+    let direction = span / distance;
     let cos_light = -direction.dot(normal);
     let facing = if cos_light < 0.0 { -normal } else { normal };
     let seen = if two_sided {
@@ -136,7 +137,7 @@ fn by_area(vertex: Vec3, point: Vec3, normal: Vec3, area: f32, two_sided: bool) 
     };
     let density = squared / (area * seen);
     let usable = seen > 0.0 && density > 0.0 && density.is_finite();
-    let end = point + facing * clearance(point.into(), area.sqrt());
+    let end = point + facing * clearance(point.into(), area.sqrt() + distance);
     usable.then_some(Towards {
         direction,
         end,
@@ -146,7 +147,8 @@ fn by_area(vertex: Vec3, point: Vec3, normal: Vec3, area: f32, two_sided: bool) 
     })
 }
 
-/// How far off its surface a sampled point must be moved to clear it: γ(8) of its coordinates and the shape's size.
+/// How far off its surface a sampled point must be moved to clear it: γ(8) of its coordinates and of `size`, the sum of the
+/// shape's size and of the shadow ray's length, of which the ray's span and the place of a hit on it are rounded.
 #[inline(always)]
 pub(super) fn clearance(point: [f32; 3], size: f32) -> f32 {
     (point[0].abs() + point[1].abs() + point[2].abs() + size) * (8.0 * 0.5 * f32::EPSILON) * 2.0
@@ -234,7 +236,8 @@ fn in_cone(
             .sqrt();
     let outwards = (vertex + direction * reach - center).normalize();
     let point = center + outwards * radius;
-    let end = point + outwards * clearance((point.abs() + center.abs()).into(), radius);
+    let coordinates = point.abs() + center.abs();
+    let end = point + outwards * clearance(coordinates.into(), radius + distance);
     let density = 1.0 / (TAU * one_minus_cos_max);
     Towards {
         direction,
