@@ -1,0 +1,115 @@
+//! The same bits for any number of threads, any instruction set and any number of shards.
+
+use steradian::estimation::{Plan, Replicates, Stopping, merge_shards};
+use steradian::measurement::Measurements;
+use steradian::scene::description::SceneDescription;
+use steradian::transport::MeasureOptions;
+use steradian_kernel::InstructionSet;
+use steradian_tests::measuring::measured;
+use steradian_tests::scenes::*;
+
+/// A room with everything in it: point, panel, ball, mirror, sky through an opening, two groups, all kinds of meters.
+fn everything() -> SceneDescription {
+    let mut lamp = point_light(p(0.5, 0.5, 2.0), intensity(20.0));
+    lamp.group = Some("lamp".into());
+    let shapes = [
+        square(6.0, 0.0).named("floor").made_of("paper"),
+        solid(p(-1.0, -1.0, 0.0), p(-0.5, -0.5, 0.7)).made_of("paper"),
+        ball(p(1.0, -0.5, 0.4), 0.4).made_of("mirror"),
+        square_facing_down(0.6, 2.5).emitting(radiance(30.0)),
+        ball(p(-1.5, 1.0, 1.0), 0.2).emitting(radiance(80.0)),
+    ];
+    let materials = [lambertian("paper", 0.7), mirror("mirror", 0.9)];
+    let mut scene = scene(materials, shapes, [lamp, environment(0.2)]);
+    let places = [
+        (p(0.2, 0.3, 0.0), UP),
+        (p(0.0, 1.0, 1.0), v(1.0, -1.0, 0.2)),
+    ];
+    scene.sensors = vec![
+        sensor("E", irradiance_at(places)),
+        sensor("L", radiance_along(p(0.2, -2.0, 1.5), v(0.0, 1.0, -0.6))),
+        sensor("E0", scalar_irradiance_at(p(0.3, 0.3, 1.1))),
+        sensor(
+            "F",
+            flux_of("floor", steradian::scene::description::FluxOf::Net),
+        ),
+    ];
+    scene
+}
+
+fn options(stop: Stopping) -> MeasureOptions {
+    MeasureOptions {
+        plan: Plan {
+            stop,
+            seed: 42,
+            threads: 1,
+            ..Plan::default()
+        },
+        ..MeasureOptions::default()
+    }
+}
+
+fn stops() -> [Stopping; 2] {
+    [Stopping::at_samples(10_000), Stopping::at_rel_error(0.03)]
+}
+
+#[test]
+fn threads_change_no_bit() {
+    for stop in stops() {
+        let alone = measured(&everything(), &options(stop));
+        for threads in [2, 7] {
+            let mut many = options(stop);
+            many.plan.threads = threads;
+            assert_eq!(alone, measured(&everything(), &many), "{threads} threads");
+        }
+    }
+}
+
+#[test]
+fn instruction_sets_change_no_bit() {
+    let best = measured(&everything(), &options(stops()[0]));
+    for instruction_set in InstructionSet::available() {
+        let other = MeasureOptions {
+            instruction_set,
+            ..options(stops()[0])
+        };
+        assert_eq!(best, measured(&everything(), &other), "{instruction_set:?}");
+    }
+}
+
+fn replicates(measurements: &Measurements) -> Vec<Replicates> {
+    let points = measurements
+        .sensors
+        .iter()
+        .flat_map(|sensor| &sensor.points);
+    points
+        .filter_map(|point| point.replicates.clone())
+        .collect()
+}
+
+#[test]
+fn three_shards_are_the_whole() {
+    for stop in stops() {
+        let whole = measured(&everything(), &options(stop));
+        let shard = |part: u32| {
+            let mut options = options(stop);
+            options.plan.shard = Some((part, 3));
+            measured(&everything(), &options)
+        };
+        let parts: Vec<_> = (1..=3).map(shard).collect();
+        let merged = merge_shards(parts.iter().map(replicates).collect()).unwrap();
+        assert_eq!(merged, replicates(&whole), "{stop:?}");
+        assert_eq!(Measurements::merge(parts).unwrap(), whole, "{stop:?}");
+    }
+}
+
+#[test]
+fn another_seed_is_another_run() {
+    let mut other = options(stops()[0]);
+    other.plan.seed += 1;
+    let (a, b) = (
+        measured(&everything(), &options(stops()[0])),
+        measured(&everything(), &other),
+    );
+    assert!(replicates(&a) != replicates(&b));
+}
