@@ -50,22 +50,14 @@ pub fn scene(
 
 /// A diffuse material.
 pub fn lambertian(name: &str, reflectance: f64) -> MaterialDescription {
-    MaterialDescription {
-        name: name.into(),
-        model: MaterialModel::Lambertian {
-            reflectance: LaneValues::Uniform(reflectance),
-        },
-    }
+    let reflectance = LaneValues::Uniform(reflectance).into();
+    MaterialDescription::new(name, MaterialModel::Lambertian { reflectance })
 }
 
 /// A mirror.
 pub fn mirror(name: &str, reflectance: f64) -> MaterialDescription {
-    MaterialDescription {
-        name: name.into(),
-        model: MaterialModel::Mirror {
-            reflectance: LaneValues::Uniform(reflectance),
-        },
-    }
+    let reflectance = LaneValues::Uniform(reflectance);
+    MaterialDescription::new(name, MaterialModel::Mirror { reflectance })
 }
 
 fn shape(geometry: GeometryDescription) -> ShapeDescription {
@@ -220,6 +212,7 @@ impl Shaping for ShapeDescription {
         let emission = EmissionDescription {
             amount,
             spectrum: None,
+            textures: vec![],
             two_sided: false,
             group: None,
         };

@@ -18,6 +18,7 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<Arc<MeshData>> {
         return Some(Arc::new(MeshData {
             vertices: vertices?,
             triangles: triangles?,
+            ..MeshData::default()
         }));
     }
     let (file, unit) = (fields.get::<String>("file"), unit(fields));

@@ -201,6 +201,7 @@ impl Read for EmissionDescription {
         Some(Self {
             amount: amount?,
             spectrum,
+            textures: vec![],
             two_sided: two_sided?,
             group,
         })

@@ -111,7 +111,9 @@ fn the_scene_and_its_materials() {
     let bands = LaneValues::Bands(vec![("nir".into(), 0.25), ("visible".into(), 0.5)]);
     assert_eq!(
         scene.materials[0].model,
-        MaterialModel::Lambertian { reflectance: bands }
+        MaterialModel::Lambertian {
+            reflectance: bands.into()
+        }
     );
     assert_eq!(
         scene.materials[1].model,

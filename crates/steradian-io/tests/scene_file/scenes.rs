@@ -138,7 +138,7 @@ fn the_light_and_camera_of_the_cornell_box_are_mitsubas() {
     let scene = shipped("cornell-box.toml");
     assert_eq!(scene.spectrum, SpectrumMode::Rgb);
     let white = MaterialModel::Lambertian {
-        reflectance: LaneValues::Rgb([0.885809, 0.698859, 0.666422]),
+        reflectance: LaneValues::Rgb([0.885809, 0.698859, 0.666422]).into(),
     };
     assert_eq!(scene.materials[0].model, white);
     let emission = scene.shapes[0].emission.as_ref().unwrap();

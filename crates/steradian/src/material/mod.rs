@@ -1,5 +1,9 @@
 //! What a surface is made of: picks the [`Brdf`] at a point.
 
+mod bitmap;
+
+pub use bitmap::{Bitmap, BitmapError, Interpolation, Texels, Wrap, linear_from_srgb};
+
 use crate::brdf::{Brdf, Lambertian, Mirror};
 use crate::quantity::Spectrum;
 

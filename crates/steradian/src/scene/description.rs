@@ -5,7 +5,9 @@
 
 use std::sync::Arc;
 
+pub use super::appearance::{Opacity, Pattern, Placement, Texture, Varying};
 use crate::geometry::{Point, Transform, Vector};
+pub use crate::material::{Bitmap, Interpolation, Texels, Wrap};
 use crate::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
     LuminousFlux, LuminousIntensity, Radiance,
@@ -32,6 +34,8 @@ pub struct SceneDescription {
     pub lights: Vec<LightDescription>,
     /// Sensors, in file order.
     pub sensors: Vec<SensorDescription>,
+    /// What its reader approximated, for reports.
+    pub warnings: Vec<String>,
 }
 
 /// What the lanes of a spectrum mean.
@@ -61,6 +65,19 @@ pub struct MaterialDescription {
     pub name: String,
     /// How it reflects.
     pub model: MaterialModel,
+    /// What part of the light it stops; `None` is all of it.
+    pub opacity: Option<Opacity>,
+}
+
+impl MaterialDescription {
+    /// An opaque material.
+    pub fn new(name: impl Into<String>, model: MaterialModel) -> Self {
+        Self {
+            name: name.into(),
+            model,
+            opacity: None,
+        }
+    }
 }
 
 /// The reflection models a description can name.
@@ -69,7 +86,7 @@ pub enum MaterialModel {
     /// Lambertian reflection, ρ/π.
     Lambertian {
         /// Directional-hemispherical reflectance, 0 to 1.
-        reflectance: LaneValues,
+        reflectance: Varying,
     },
     /// A perfect plane mirror of a given reflectance.
     Mirror {
@@ -194,6 +211,10 @@ pub struct MeshData {
     pub vertices: Vec<Point>,
     /// Triples of vertex indices, counter-clockwise from the front.
     pub triangles: Vec<[u32; 3]>,
+    /// Texture coordinates of each vertex, (0, 0) at the lower left of a picture; empty when there are none.
+    pub texture_coordinates: Vec<[f32; 2]>,
+    /// Linear Rec.709 and alpha of each vertex; empty when there are none.
+    pub colors: Vec<[f32; 4]>,
 }
 
 /// A circular opening in a sphere: the cap of `half_angle` around `direction`.
@@ -223,6 +244,8 @@ pub struct EmissionDescription {
     pub amount: EmissionAmount,
     /// The shape of its spectrum; `None` is white.
     pub spectrum: Option<LaneValues>,
+    /// How it varies over the surface: factors of `amount` (of its mean over the surface where that is a flux).
+    pub textures: Vec<Texture>,
     /// Both sides emit; else only the front.
     pub two_sided: bool,
     /// Light group.

@@ -87,7 +87,7 @@ fn one_sided(
         MaterialModel::Lambertian {
             reflectance: values,
         } => Some(Material::Lambertian {
-            reflectance: reflectance(values),
+            reflectance: reflectance(&values.factor),
         }),
         MaterialModel::Mirror {
             reflectance: values,

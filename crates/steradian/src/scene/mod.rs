@@ -1,5 +1,6 @@
 //! Scenes: from a description to an immutable, validated scene.
 
+mod appearance;
 mod box_form;
 pub mod description;
 mod forms;
@@ -95,7 +96,7 @@ impl Scene {
             materials: materials.materials,
             lights: lights.lights,
             sensors,
-            warnings: Vec::new(),
+            warnings: description.warnings.clone(),
             lanes,
         })
     }

@@ -200,19 +200,19 @@ fn copies_of_lights_are_lights_of_their_own() {
 #[test]
 fn materials_of_front_and_back() {
     let mut description = valid();
-    description.materials.push(MaterialDescription {
-        name: "silver".into(),
-        model: MaterialModel::Mirror {
+    description.materials.push(MaterialDescription::new(
+        "silver",
+        MaterialModel::Mirror {
             reflectance: LaneValues::Uniform(0.9),
         },
-    });
-    description.materials.push(MaterialDescription {
-        name: "sheet".into(),
-        model: MaterialModel::TwoSided {
+    ));
+    description.materials.push(MaterialDescription::new(
+        "sheet",
+        MaterialModel::TwoSided {
             front: "silver".into(),
             back: "grey".into(),
         },
-    });
+    ));
     description.shapes[0].material = Some("sheet".into());
     description
         .shapes

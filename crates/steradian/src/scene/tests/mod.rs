@@ -26,12 +26,8 @@ fn valid() -> SceneDescription {
 }
 
 fn lambertian(name: &str, reflectance: f64) -> MaterialDescription {
-    MaterialDescription {
-        name: name.into(),
-        model: MaterialModel::Lambertian {
-            reflectance: LaneValues::Uniform(reflectance),
-        },
-    }
+    let reflectance = LaneValues::Uniform(reflectance).into();
+    MaterialDescription::new(name, MaterialModel::Lambertian { reflectance })
 }
 
 fn shape(geometry: GeometryDescription, material: Option<&str>) -> ShapeDescription {
@@ -84,6 +80,7 @@ fn mesh(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> GeometryDescription {
     GeometryDescription::Mesh(Arc::new(MeshData {
         vertices: vertices.iter().copied().map(Point::from).collect(),
         triangles: triangles.to_vec(),
+        ..MeshData::default()
     }))
 }
 

@@ -241,13 +241,13 @@ fn reflectances_and_names_of_materials() {
 }
 
 fn two_sided(name: &str, front: &str, back: &str) -> MaterialDescription {
-    MaterialDescription {
-        name: name.into(),
-        model: MaterialModel::TwoSided {
+    MaterialDescription::new(
+        name,
+        MaterialModel::TwoSided {
             front: front.into(),
             back: back.into(),
         },
-    }
+    )
 }
 
 #[test]
@@ -405,6 +405,7 @@ fn a_plane_has_no_total_flux() {
         emission: Some(EmissionDescription {
             amount: EmissionAmount::Flux(Amount::Radiant(Flux::from_watts(1.0))),
             spectrum: None,
+            textures: vec![],
             two_sided: false,
             group: None,
         }),
@@ -672,6 +673,7 @@ fn light_needs_a_band_that_carries_it() {
             LuminousExitance::from_lumens_per_square_metre(1.0),
         )),
         spectrum: None,
+        textures: vec![],
         two_sided: false,
         group: None,
     });
@@ -716,6 +718,7 @@ fn a_radiant_light_needs_its_share_of_each_band() {
             1.0,
         ))),
         spectrum: Some(LaneValues::Bands(vec![("visible".into(), 1.0)])),
+        textures: vec![],
         two_sided: false,
         group: None,
     });

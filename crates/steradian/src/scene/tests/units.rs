@@ -15,6 +15,7 @@ fn emitting(amount: EmissionAmount, two_sided: bool) -> SceneDescription {
     description.shapes[0].emission = Some(EmissionDescription {
         amount,
         spectrum: None,
+        textures: vec![],
         two_sided,
         group: Some("panel".into()),
     });

@@ -21,6 +21,7 @@ fn shape(geometry: GeometryDescription) -> ShapeDescription {
     let emission = EmissionDescription {
         amount,
         spectrum: None,
+        textures: vec![],
         two_sided: false,
         group: None,
     };
