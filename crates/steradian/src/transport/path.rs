@@ -192,3 +192,6 @@ fn push(
         [flights.light_u[i], flights.light_v[i]],
     );
 }
+
+#[cfg(test)]
+mod tests;
