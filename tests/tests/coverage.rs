@@ -91,7 +91,7 @@ impl Integrand for Case {
         key_of_name(self.name)
     }
 
-    fn weights(&self) -> &[f64] {
+    fn weights(&self, _: usize) -> &[f64] {
         &[1.0]
     }
 
@@ -107,7 +107,7 @@ impl Integrand for Case {
                     .numbers
                     .each_ref()
                     .map(|block| block.each_ref().map(|column| column[i]));
-                tally.sample(number, &[(self.value)(&point)]);
+                tally.sample(number, &[(self.value)(&point)], &[1.0]);
             }
         }
     }

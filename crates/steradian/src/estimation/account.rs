@@ -45,7 +45,7 @@ pub(super) struct Work {
 pub(super) struct Account<'c> {
     work: Work,
     cells: &'c mut Cells,
-    weights: &'c [f64],
+    columns: usize,
     relative_error: &'c (dyn Fn(&Cells) -> Option<f64> + Sync),
     planned: u64,
     samples: u64,
@@ -56,14 +56,14 @@ impl<'c> Account<'c> {
     pub(super) fn new(
         work: Work,
         cells: &'c mut Cells,
-        weights: &'c [f64],
+        columns: usize,
         relative_error: &'c (dyn Fn(&Cells) -> Option<f64> + Sync),
     ) -> Self {
         let planned = work.schedule.remaining();
         Self {
             work,
             cells,
-            weights,
+            columns,
             relative_error,
             planned,
             samples: 0,
@@ -78,7 +78,7 @@ impl Ledger for Account<'_> {
     fn issue(&mut self) -> Option<Parcel> {
         let new = || Parcel {
             runs: Vec::new(),
-            tally: Tally::new(self.weights),
+            tally: Tally::new(self.columns),
         };
         let mut parcel = self.spare.pop().unwrap_or_else(new);
         self.work.schedule.next_batch(&mut parcel.runs);

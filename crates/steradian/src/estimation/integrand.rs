@@ -25,8 +25,8 @@ pub trait Integrand: Sync {
     /// The identity of a stream, the same in every run: a hash of the sensor's name and the index in it.
     fn stream_key(&self, stream: usize) -> u64;
 
-    /// Weight of each column in the scalar that a tolerance is about, for instance luminance weights.
-    fn weights(&self) -> &[f64];
+    /// Weight of each column of a stream in the scalar that a tolerance is about, for instance luminance weights.
+    fn weights(&self, stream: usize) -> &[f64];
 
     /// The part of the scalar that is known exactly and is added to the estimate before a relative tolerance is judged.
     fn offset(&self, _stream: usize) -> f64 {

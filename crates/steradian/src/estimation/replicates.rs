@@ -41,7 +41,7 @@ impl Replicates {
         Self {
             sensor: integrand.sensor_of(stream),
             confidence: plan.confidence,
-            weights: integrand.weights().to_vec(),
+            weights: integrand.weights(stream).to_vec(),
             sums: cells.sums(stream).to_vec(),
             samples: cells.samples(stream).to_vec(),
             largest: cells.largest(stream),

@@ -51,13 +51,13 @@ const SMALLEST_FINAL: f64 = 0.25;
 ///     fn columns(&self) -> usize { 1 }
 ///     fn sensor_of(&self, _: usize) -> usize { 0 }
 ///     fn stream_key(&self, _: usize) -> u64 { 0 }
-///     fn weights(&self) -> &[f64] { &[1.0] }
+///     fn weights(&self, _: usize) -> &[f64] { &[1.0] }
 ///     fn new_workspace(&self) {}
 ///     fn sample(&self, batch: &SampleBatch<'_>, _: &mut (), tally: &mut Tally) {
 ///         for (number, run) in batch.runs.iter().enumerate() {
 ///             for index in run.first..run.first + run.count {
 ///                 let [u, ..] = block::sample(run.key, index, 0);
-///                 tally.sample(number, &[f64::from(u * u)]);
+///                 tally.sample(number, &[f64::from(u * u)], &[1.0]);
 ///             }
 ///         }
 ///     }
@@ -85,7 +85,8 @@ pub fn estimate<I: Integrand>(
 }
 
 fn check_shape<I: Integrand>(integrand: &I) -> Result<(), EstimationError> {
-    let fault = if integrand.weights().len() != integrand.columns() || integrand.columns() == 0 {
+    let weighted = |stream| integrand.weights(stream).len() == integrand.columns();
+    let fault = if integrand.columns() == 0 || !(0..integrand.streams()).all(weighted) {
         "an integrand needs columns, and a weight for each of them"
     } else if u32::try_from(integrand.streams()).is_err() {
         "there are more than 2³² streams"
@@ -329,7 +330,7 @@ impl<'a, I: Integrand> Session<'a, I> {
             phase,
             begin: self.crew.elapsed(),
         };
-        let account = Account::new(work, cells, integrand.weights(), &relative_error);
+        let account = Account::new(work, cells, integrand.columns(), &relative_error);
         self.crew.run(account)
     }
 

@@ -31,15 +31,15 @@ impl Moments {
 /// zero need not be told. A value that is not finite is counted, kept out of the sums, and makes the estimation fail.
 #[derive(Clone, Debug)]
 pub struct Tally {
-    weights: Vec<f64>,
+    columns: usize,
     sums: Vec<f64>,
     moments: Vec<Moments>,
 }
 
 impl Tally {
-    pub(super) fn new(weights: &[f64]) -> Self {
+    pub(super) fn new(columns: usize) -> Self {
         Self {
-            weights: weights.to_vec(),
+            columns,
             sums: Vec::new(),
             moments: Vec::new(),
         }
@@ -47,25 +47,21 @@ impl Tally {
 
     pub(super) fn reset(&mut self, runs: usize) {
         self.sums.clear();
-        self.sums.resize(runs * self.weights.len(), 0.0);
+        self.sums.resize(runs * self.columns, 0.0);
         self.moments.clear();
         self.moments.resize(runs, Moments::default());
     }
 
-    /// Adds one sample: all its columns, and their weighted sum.
+    /// Adds one sample: all its columns, and their sum weighted as the stream of the run weights them.
     ///
     /// # Panics
     /// If `columns` is not as long as the integrand's columns, or there is no such run in the batch.
     #[inline]
-    pub fn sample(&mut self, run: usize, columns: &[f64]) {
-        assert_eq!(
-            columns.len(),
-            self.weights.len(),
-            "a sample has every column"
-        );
+    pub fn sample(&mut self, run: usize, columns: &[f64], weights: &[f64]) {
+        assert_eq!(columns.len(), self.columns, "a sample has every column");
         let scalar: f64 = columns
             .iter()
-            .zip(&self.weights)
+            .zip(weights)
             .map(|(value, weight)| value * weight)
             .sum();
         if !scalar.is_finite() {
@@ -86,7 +82,7 @@ impl Tally {
     #[inline]
     pub fn add(&mut self, run: usize, column: usize, value: f64) {
         if value.is_finite() {
-            self.sums[run * self.weights.len() + column] += value;
+            self.sums[run * self.columns + column] += value;
         } else {
             self.moments[run].non_finite += 1;
         }
@@ -103,7 +99,7 @@ impl Tally {
     }
 
     pub(super) fn run(&self, run: usize) -> (&[f64], &Moments) {
-        let columns = self.weights.len();
+        let columns = self.columns;
         (
             &self.sums[run * columns..(run + 1) * columns],
             &self.moments[run],
@@ -117,11 +113,11 @@ mod tests {
 
     #[test]
     fn whole_and_sparse_samples_are_the_same() {
-        let (mut whole, mut sparse) = (Tally::new(&[0.5, 2.0]), Tally::new(&[0.5, 2.0]));
+        let (mut whole, mut sparse) = (Tally::new(2), Tally::new(2));
         whole.reset(2);
         sparse.reset(2);
-        whole.sample(1, &[3.0, 0.0]);
-        whole.sample(1, &[0.0, -7.0]);
+        whole.sample(1, &[3.0, 0.0], &[0.5, 2.0]);
+        whole.sample(1, &[0.0, -7.0], &[0.5, 2.0]);
         sparse.add(1, 0, 3.0);
         sparse.scalar(1, 1.5);
         sparse.add(1, 1, -7.0);
@@ -142,10 +138,10 @@ mod tests {
 
     #[test]
     fn values_that_are_not_finite_are_counted_and_kept_out() {
-        let mut tally = Tally::new(&[0.0]);
+        let mut tally = Tally::new(1);
         tally.reset(1);
-        tally.sample(0, &[f64::NAN]);
-        tally.sample(0, &[f64::INFINITY]);
+        tally.sample(0, &[f64::NAN], &[0.0]);
+        tally.sample(0, &[f64::INFINITY], &[0.0]);
         tally.add(0, 0, f64::NEG_INFINITY);
         tally.scalar(0, f64::NAN);
         assert_eq!(tally.run(0).0, [0.0]);

@@ -33,7 +33,9 @@ pub(super) struct Stream<'a> {
 pub(super) struct Meters<'a> {
     tracer: Tracer<'a>,
     streams: Vec<Stream<'a>>,
-    weights: Vec<f64>,
+    /// Of the columns, by sensor.
+    weights: Vec<Vec<f64>>,
+    columns: usize,
 }
 
 /// Paths that start alike.
@@ -78,7 +80,7 @@ impl<'a> Meters<'a> {
         tables: &'a Tables<'a>,
         options: &MeasureOptions,
         streams: Vec<Stream<'a>>,
-        weights: Vec<f64>,
+        weights: Vec<Vec<f64>>,
     ) -> Self {
         let tracer = Tracer {
             tables,
@@ -90,6 +92,7 @@ impl<'a> Meters<'a> {
             tracer,
             streams,
             weights,
+            columns: tables.scene.columns(),
         }
     }
 
@@ -258,17 +261,20 @@ impl<'a> Meters<'a> {
     }
 
     fn tally(&self, batch: &SampleBatch, workspace: &mut MeterWorkspace, tally: &mut Tally) {
-        let columns = self.weights.len();
         let mut slot = 0;
         for (number, run) in batch.runs.iter().enumerate() {
             let scale = self.streams[run.stream as usize].meter.scale();
             for _ in 0..run.count {
                 let factor = scale * workspace.sign[slot];
-                for column in 0..columns {
+                for column in 0..self.columns {
                     workspace.columns[column] =
                         f64::from(workspace.paths.gathered[column * BATCH + slot]) * factor;
                 }
-                tally.sample(number, &workspace.columns);
+                tally.sample(
+                    number,
+                    &workspace.columns,
+                    self.weights(run.stream as usize),
+                );
                 slot += 1;
             }
         }
@@ -283,7 +289,7 @@ impl Integrand for Meters<'_> {
     }
 
     fn columns(&self) -> usize {
-        self.weights.len()
+        self.columns
     }
 
     fn sensor_of(&self, stream: usize) -> usize {
@@ -294,8 +300,8 @@ impl Integrand for Meters<'_> {
         self.streams[stream].key
     }
 
-    fn weights(&self) -> &[f64] {
-        &self.weights
+    fn weights(&self, stream: usize) -> &[f64] {
+        &self.weights[self.streams[stream].sensor]
     }
 
     fn offset(&self, stream: usize) -> f64 {
@@ -304,7 +310,7 @@ impl Integrand for Meters<'_> {
 
     fn new_workspace(&self) -> MeterWorkspace {
         MeterWorkspace {
-            columns: vec![0.0; self.weights.len()],
+            columns: vec![0.0; self.columns],
             ..MeterWorkspace::default()
         }
     }
@@ -384,7 +390,7 @@ impl FluxMeter<'_> {
 pub(super) fn streams<'a>(
     scene: &Scene,
     prepared: &mut [(usize, Vec<Prepared<'a>>)],
-    weights: &[f64],
+    weights: &[Vec<f64>],
 ) -> Vec<Stream<'a>> {
     let mut streams = Vec::new();
     for (position, (sensor, readings)) in prepared.iter_mut().enumerate() {
@@ -393,7 +399,8 @@ pub(super) fn streams<'a>(
             let Some(meter) = reading.meter.take() else {
                 continue;
             };
-            let offset = weights.iter().zip(&reading.exact).map(|(w, x)| w * x).sum();
+            let weights = weights[position].iter().zip(&reading.exact);
+            let offset = weights.map(|(w, x)| w * x).sum();
             let key = hash::combine(name, reading.index as u64);
             reading.stream = Some(streams.len());
             streams.push(Stream {

@@ -221,7 +221,11 @@ pub fn measure(
         )
     };
     let mut prepared: Vec<(usize, Vec<Prepared>)> = chosen.iter().map(prepare).collect();
-    let weights = scalar_weights(scene, &scene.sensors()[chosen[0]].readouts);
+    let readouts = |sensor: &usize| &scene.sensors()[*sensor].readouts;
+    let weights: Vec<_> = chosen
+        .iter()
+        .map(|sensor| scalar_weights(scene, readouts(sensor)))
+        .collect();
     let streams = streams(scene, &mut prepared, &weights);
     let replicates = if streams.is_empty() {
         options.plan.check()?;

@@ -44,7 +44,7 @@ impl Integrand for Mixture {
         combine(key_of_name("mixture"), stream as u64)
     }
 
-    fn weights(&self) -> &[f64] {
+    fn weights(&self, _: usize) -> &[f64] {
         &[1.0, 0.5]
     }
 
@@ -59,7 +59,7 @@ impl Integrand for Mixture {
                 let rare = f64::from(u8::from(x < 0.1 && y < 0.1));
                 let value =
                     f64::from(run.stream + 1) * (u + v * v) + (self.fault)(run.stream, index);
-                tally.sample(number, &[value, rare]);
+                tally.sample(number, &[value, rare], self.weights(0));
                 *samples += 1;
             }
         }
@@ -198,8 +198,8 @@ fn an_exact_part_widens_the_tolerance() {
         fn stream_key(&self, stream: usize) -> u64 {
             self.0.stream_key(stream)
         }
-        fn weights(&self) -> &[f64] {
-            self.0.weights()
+        fn weights(&self, _: usize) -> &[f64] {
+            self.0.weights(0)
         }
         fn offset(&self, _stream: usize) -> f64 {
             1e4
@@ -234,7 +234,7 @@ fn darkness_ends_and_is_not_converged() {
         fn stream_key(&self, stream: usize) -> u64 {
             stream as u64
         }
-        fn weights(&self) -> &[f64] {
+        fn weights(&self, _: usize) -> &[f64] {
             &[1.0]
         }
         fn new_workspace(&self) {}
@@ -245,7 +245,7 @@ fn darkness_ends_and_is_not_converged() {
                 .enumerate()
                 .filter(|(_, run)| run.stream == 1)
             {
-                (0..run.count).for_each(|_| tally.sample(number, &[2.0]));
+                (0..run.count).for_each(|_| tally.sample(number, &[2.0], self.weights(0)));
             }
         }
     }
