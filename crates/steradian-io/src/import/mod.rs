@@ -1,4 +1,5 @@
 //! Readers of other programs' files.
 
+pub mod image;
 pub mod obj;
 pub mod points;
