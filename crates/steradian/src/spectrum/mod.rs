@@ -1,10 +1,37 @@
-//! What the four lanes of a [`Spectrum`](crate::quantity::Spectrum) mean in a run.
+//! Spectra, and what the four lanes of a [`Spectrum`](crate::quantity::Spectrum) mean in a run.
 //!
 //! Transport multiplies and adds lanes and never asks what they stand for; [`Lanes`] is decided once per run and is
 //! the only place that knows. In `rgb` the lanes are linear Rec.709 channels, in `broadband` one to four named bands.
+//!
+//! Everything that depends on wavelength is a [`Curve`]: [`Illuminant`], [`blackbody`], the [`Observer`]s, the
+//! [`Action`] spectra. What is seen is an integral of products of curves:
+//!
+//! ```
+//! use steradian::spectrum::{Action, Illuminant};
+//!
+//! // A high-pressure sodium lamp turns 58 % of the watt's 683 lm into light.
+//! let (lamp, visible) = (Illuminant::Hp1.curve(), [380.0, 780.0]);
+//! let efficacy = |action: Action| lamp.product_integral(action.weight(), visible) / lamp.integral(visible);
+//! assert!((efficacy(Action::Photopic) - 394.5).abs() < 1.0);
+//! ```
 
+mod blackbody;
+mod colour;
+mod curve;
+mod illuminant;
 mod lanes;
+mod observer;
+mod response;
+mod tables;
+mod upsampling;
 mod values;
 
+pub use blackbody::{blackbody, blackbody_radiance};
+pub use colour::{Matrix, apply, chromaticity, rgb_curves, rgb_from_xyz, xyz_from_rgb, xyz_of};
+pub use curve::{Beyond, Curve, CurveError};
+pub use illuminant::{Illuminant, daylight};
 pub use lanes::{LaneError, Lanes, MAX_LANES};
+pub use observer::{Observer, photopic, scotopic};
+pub use response::{Action, MELANOPIC_EFFICACY_OF_D65, PHOTOPIC_EFFICACY, SCOTOPIC_EFFICACY};
+pub use upsampling::Sigmoid;
 pub use values::LaneValues;
