@@ -24,6 +24,7 @@ mod observer;
 mod response;
 mod tables;
 mod upsampling;
+mod upsampling_table;
 mod values;
 
 pub use blackbody::{blackbody, blackbody_radiance};
@@ -33,5 +34,6 @@ pub use illuminant::{Illuminant, daylight};
 pub use lanes::{LaneError, Lanes, MAX_LANES};
 pub use observer::{Observer, photopic, scotopic};
 pub use response::{Action, MELANOPIC_EFFICACY_OF_D65, PHOTOPIC_EFFICACY, SCOTOPIC_EFFICACY};
-pub use upsampling::Sigmoid;
+pub use upsampling::{Sigmoid, sigmoid_at};
+pub use upsampling_table::UpsamplingTable;
 pub use values::LaneValues;
