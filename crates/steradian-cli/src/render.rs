@@ -85,6 +85,8 @@ enum FilterName {
     Gaussian,
     /// Each sample counts for its own pixel only
     Box,
+    /// The four-term window of Blackman and Harris, over two pixels each way
+    BlackmanHarris,
 }
 
 /// Renders and writes the picture, or the part of it that a shard is.
@@ -143,6 +145,7 @@ fn options(arguments: &Arguments) -> Result<RenderOptions, Failure> {
         filter: match arguments.filter {
             FilterName::Gaussian => Filter::Gaussian,
             FilterName::Box => Filter::Box,
+            FilterName::BlackmanHarris => Filter::BlackmanHarris,
         },
         max_depth: engine.max_depth,
         instruction_set: engine.instruction_set()?,

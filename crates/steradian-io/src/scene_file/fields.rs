@@ -9,7 +9,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::context::Context;
-use super::keys::{Key, Need};
+use super::keys::{Key, Need, Value, With};
 use super::nearest::nearest;
 use super::node::{Node, in_file_order};
 use super::value::Read;
@@ -131,6 +131,11 @@ impl<'a> Fields<'a> {
     }
 
     fn check_need(&self, key: &Key, noun: &str) {
+        if let Some(with) = &key.with
+            && !with.names.contains(&self.choice(with.key))
+        {
+            return self.check_absent(key, with, noun);
+        }
         let allowed = key.beside.is_none_or(|other| self.has(other));
         let present = self.has(key.name);
         if let (true, false, Some(other)) = (present, allowed, key.beside) {
@@ -148,6 +153,39 @@ impl<'a> Fields<'a> {
             );
             self.context().error(self.span(), message, None);
         }
+    }
+
+    /// The name that a key chooses, or that stands for it where it is absent.
+    fn choice(&self, name: &str) -> &str {
+        let row = self.keys.iter().find(|key| key.name == name);
+        let default = match row.map(|key| key.need) {
+            Some(Need::Default(text)) => text.trim_matches('"'),
+            _ => "",
+        };
+        let given = self.table.get(name).map(|value| value.get_ref().as_str());
+        given.map_or(default, Option::unwrap_or_default)
+    }
+
+    /// Reports a key that has no meaning with what another chooses, if that is a name at all.
+    fn check_absent(&self, key: &Key, with: &With, noun: &str) {
+        let choice = self.choice(with.key);
+        if !self.has(key.name) || !self.is_name(with.key, choice) {
+            return;
+        }
+        let message = format!(
+            "key `{}` of {noun} has no meaning with {} = {choice:?}",
+            key.name, with.key
+        );
+        let names: Vec<String> = with.names.iter().map(|name| format!("{name:?}")).collect();
+        let hint = format!("it belongs to {} = {}", with.key, names.join(", "));
+        self.context()
+            .error(self.span_of(key.name), message, Some(hint));
+    }
+
+    /// Whether a key may choose this name.
+    fn is_name(&self, key: &str, name: &str) -> bool {
+        let row = self.keys.iter().find(|row| row.name == key);
+        row.is_some_and(|row| matches!(row.value, Value::Choice(names) if names.contains(&name)))
     }
 
     /// Reports groups of which not exactly one key is there.

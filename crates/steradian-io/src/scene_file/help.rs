@@ -100,10 +100,11 @@ impl Help {
 }
 
 fn need(key: &Key, keys: &[Key]) -> String {
-    let beside = key
-        .beside
-        .map(|other| format!(" beside `{other}`"))
-        .unwrap_or_default();
+    let beside = match (&key.with, key.beside) {
+        (Some(with), _) => format!(" with {} = {}", with.key, with.names.join(", ")),
+        (None, Some(other)) => format!(" beside `{other}`"),
+        (None, None) => String::new(),
+    };
     match key.need {
         Need::Required => format!("Required{beside}."),
         Need::Default(value) => format!("Default{beside}: {value}."),

@@ -12,8 +12,17 @@ pub(super) struct Key {
     pub need: Need,
     /// The key beside which alone this one has a meaning.
     pub beside: Option<&'static str>,
+    /// The choice with which alone this key has a meaning, and is needed if required.
+    pub with: Option<With>,
     /// One line, without a full stop.
     pub doc: &'static str,
+}
+
+/// Some of the names that another key chooses from.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub(super) struct With {
+    pub key: &'static str,
+    pub names: &'static [&'static str],
 }
 
 /// Whether a key must be there, and what its absence means.
@@ -123,6 +132,7 @@ impl Key {
             value,
             need,
             beside: None,
+            with: None,
             doc,
         }
     }
@@ -164,6 +174,19 @@ impl Key {
             value: self.value,
             need: self.need,
             beside: Some(key),
+            with: self.with,
+            doc: self.doc,
+        }
+    }
+
+    /// The same key, allowed only (and if required, needed only) where `key` chooses one of these names.
+    pub const fn with(self, key: &'static str, names: &'static [&'static str]) -> Self {
+        Self {
+            name: self.name,
+            value: self.value,
+            need: self.need,
+            beside: self.beside,
+            with: Some(With { key, names }),
             doc: self.doc,
         }
     }

@@ -79,7 +79,7 @@ impl Definitions {
     ) -> Json {
         for key in keys.iter().filter(|key| key.need != Need::NotYet) {
             properties.insert(key.name.to_owned(), self.key(key));
-            if key.need == Need::Required && key.beside.is_none() {
+            if key.need == Need::Required && key.beside.is_none() && key.with.is_none() {
                 required.push(key.name);
             }
         }
@@ -87,7 +87,10 @@ impl Definitions {
             json!({ "type": "object", "properties": properties, "additionalProperties": false });
         let optional = [
             ("required", Json::from(required)),
-            ("allOf", exclusive_groups(keys).into()),
+            (
+                "allOf",
+                [exclusive_groups(keys), chosen_keys(keys)].concat().into(),
+            ),
             ("dependentRequired", companions(keys).into()),
         ];
         for (name, value) in optional {
@@ -177,6 +180,26 @@ fn exclusive_groups(keys: &[&Key]) -> Vec<Json> {
         .into_iter()
         .map(|(_, alternatives)| json!({ "oneOf": alternatives }))
         .collect()
+}
+
+/// Keys that need a choice of another key, and that such a choice needs.
+fn chosen_keys(keys: &[&Key]) -> Vec<Json> {
+    let rule = |key: &&Key| {
+        let with = key.with.as_ref()?;
+        let other = keys.iter().find(|other| other.name == with.key)?;
+        let is_default = |name: &&str| matches!(other.need, Need::Default(text) if text.trim_matches('"') == *name);
+        let mut chosen = json!({ "properties": { with.key: { "enum": with.names } } });
+        if !with.names.iter().any(is_default) {
+            chosen["required"] = json!([with.key]);
+        }
+        let present = json!({ "required": [key.name] });
+        let mut rule = json!({ "if": chosen, "else": { "not": present } });
+        if key.need == Need::Required {
+            rule["then"] = present;
+        }
+        Some(rule)
+    };
+    keys.iter().filter_map(rule).collect()
 }
 
 /// Which keys need another: those that mean something only beside it, and it those that it requires.

@@ -3,15 +3,15 @@
 use steradian::geometry::{Point, Transform, Vector};
 use steradian::quantity::Length;
 use steradian::scene::description::{
-    CameraDescription, FluxOf, FluxSurface, Receivers, Response, SensorDescription, SensorKind,
-    Side,
+    CameraDescription, Fisheye, FluxOf, FluxSurface, Projection, Receivers, Response,
+    SensorDescription, SensorKind, Side,
 };
 
 use super::fields::Fields;
 use super::keys::Value;
 use super::node::Node;
-use super::tables::{GRID, SENSORS, SURFACES};
-use super::value::{Read, Towards, choices};
+use super::tables::{GRID, PROJECTION_NAMES, SENSORS, SURFACES};
+use super::value::{Read, Towards, choice, choices};
 use super::{placement, shape};
 
 choices! { Response, "auto" => Self::Auto, "radiant" => Self::Radiant, "photopic" => Self::Photopic }
@@ -120,14 +120,57 @@ fn camera(fields: &Fields<'_>) -> Option<CameraDescription> {
     } else {
         Some(Vector::new(0.0, 0.0, 1.0))
     };
-    let (fov, resolution) = (fields.get("fov"), fields.get("resolution"));
+    let (projection, resolution) = (projection(fields), fields.get("resolution"));
     Some(CameraDescription {
         position: position?,
         look_at: look_at?,
         up: up?,
-        fov: fov?,
+        projection: projection?,
         resolution: resolution?,
     })
+}
+
+fn projection(fields: &Fields<'_>) -> Option<Projection> {
+    let ProjectionName(name) = fields.get("projection")?;
+    let fisheye = |mapping| {
+        let fov = fields.get("fov")?;
+        Some(Projection::Fisheye { mapping, fov })
+    };
+    match name {
+        "thin-lens" => thin_lens(fields),
+        "orthographic" => fields
+            .get("width")
+            .map(|width| Projection::Orthographic { width }),
+        "panorama" => Some(Projection::Panorama),
+        "fisheye-equidistant" => fisheye(Fisheye::Equidistant),
+        "fisheye-equisolid" => fisheye(Fisheye::Equisolid),
+        "fisheye-hemispherical" => fisheye(Fisheye::Hemispherical),
+        _ => fields.get("fov").map(|fov| Projection::Perspective { fov }),
+    }
+}
+
+fn thin_lens(fields: &Fields<'_>) -> Option<Projection> {
+    let (fov, aperture_radius, focus_distance) = (
+        fields.get("fov"),
+        fields.get("aperture_radius"),
+        fields.get("focus_distance"),
+    );
+    Some(Projection::ThinLens {
+        fov: fov?,
+        aperture_radius: aperture_radius?,
+        focus_distance: focus_distance?,
+    })
+}
+
+/// The name of a projection.
+struct ProjectionName(&'static str);
+
+impl Read for ProjectionName {
+    const VALUE: Value = Value::Choice(PROJECTION_NAMES);
+
+    fn read(node: Node<'_>) -> Option<Self> {
+        choice(node, PROJECTION_NAMES).map(Self)
+    }
 }
 
 /// The grid of an irradiance sensor.

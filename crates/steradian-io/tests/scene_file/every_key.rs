@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde_json::Value as Json;
 use steradian::geometry::{Point, Vector};
 use steradian::quantity::{
-    Amount, Angle, Flux, Illuminance, Irradiance, LuminousFlux, LuminousIntensity,
+    Amount, Angle, Flux, Illuminance, Irradiance, Length, LuminousFlux, LuminousIntensity,
 };
 use steradian::scene::description::*;
 use steradian_io::scene_file::schema;
@@ -505,7 +505,28 @@ fn the_other_sensors() {
         (camera.up, camera.resolution),
         (Vector::new(0.0, 1.0, 1.0), [320, 200])
     );
-    assert_eq!(camera.fov, Angle::from_degrees(40.0));
+    let fov = Angle::from_degrees(40.0);
+    assert_eq!(camera.projection, Projection::Perspective { fov });
+}
+
+#[test]
+fn the_projections_of_cameras() {
+    let sensors = everything().sensors;
+    let projection = |name: &str| {
+        let mut named = sensors.iter().filter(|sensor| sensor.name == name);
+        match &named.next().unwrap().kind {
+            SensorKind::Camera(camera) => camera.projection,
+            other => panic!("{other:?}"),
+        }
+    };
+    let thin_lens = Projection::ThinLens {
+        fov: Angle::from_degrees(40.0),
+        aperture_radius: Length::from_millimetres(5.0),
+        focus_distance: Length::from_metres(2.5),
+    };
+    assert_eq!(projection("thin lens"), thin_lens);
+    let width = Length::from_metres(3.0);
+    assert_eq!(projection("plan"), Projection::Orthographic { width });
 }
 
 #[test]

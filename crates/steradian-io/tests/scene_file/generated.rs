@@ -39,6 +39,7 @@ fn the_help_names_units_and_defaults() {
         "Default: \"broadband\".",
         "One of intensity, flux.",
         "Required beside `rotate`.",
+        "Required with projection = thin-lens.",
         "The keys of an emission.",
     ] {
         assert!(help.contains(part), "{part}");

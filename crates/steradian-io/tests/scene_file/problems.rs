@@ -427,6 +427,39 @@ fn keys_that_exclude_or_need_each_other() {
     );
 }
 
+/// A camera whose keys are `keys` in the place of the sensor.
+#[track_caller]
+fn camera_problem(keys: &str, at: &str, says: &str) -> Diagnostic {
+    let camera = format!(
+        "kind = \"camera\"\nposition = [0, 0, 1]\nlook_at = [1, 0, 1]\nresolution = [8, 8]\n{keys}"
+    );
+    let sensor = "kind = \"irradiance\"\npoints = [[0, 0, 0, 0, 0, 1]]";
+    one_problem(sensor, &camera, at, says)
+}
+
+#[test]
+fn keys_of_another_projection() {
+    let width = camera_problem(
+        "fov = \"40 deg\"\nwidth = 3",
+        "3",
+        "key `width` of the camera sensor has no meaning with projection = \"perspective\"",
+    );
+    assert_eq!(width.hints, ["it belongs to projection = \"orthographic\""]);
+    camera_problem(
+        "projection = \"panorama\"\nfov = \"40 deg\"",
+        "\"40 deg\"",
+        "`fov` of the camera sensor has no meaning",
+    );
+    camera_problem(
+        "projection = \"thin-lens\"\nfov = \"40 deg\"\naperture_radius = 0.1",
+        "[[sensors]]",
+        "missing key `focus_distance`",
+    );
+    camera_problem("", "[[sensors]]", "missing key `fov`");
+    let unknown = "projection = \"fish-eye\"\nfov = \"40 deg\"\nwidth = 2";
+    camera_problem(unknown, "\"fish-eye\"", "fisheye-equidistant");
+}
+
 #[test]
 fn names_are_given_once() {
     let again = "[[sensors]]\nname = \"points\"\nkind = \"radiance\"\nrays = []\n\n[[sensors]]";
@@ -555,7 +588,8 @@ fn problems_of_the_description_are_shown_in_the_file() {
 fn key_of(line: &str) -> Option<&str> {
     let (key, _) = line.split_once(" = ")?;
     let complete = line.parse::<toml::Table>().is_ok();
-    (complete && !line.starts_with(' ') && key != "kind" && key != "model").then_some(key)
+    let tells_keys = ["kind", "model", "projection"].contains(&key);
+    (complete && !line.starts_with(' ') && !tells_keys).then_some(key)
 }
 
 #[test]

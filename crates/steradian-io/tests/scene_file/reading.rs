@@ -3,8 +3,8 @@
 use steradian::geometry::{Point, Transform, Vector};
 use steradian::quantity::Angle;
 use steradian::scene::description::{
-    FluxOf, FluxSurface, GeometryDescription, LaneValues, LightKind, MaterialModel, Receivers,
-    Response, SensorKind, Side, SpectrumMode, SpotBeam,
+    Fisheye, FluxOf, FluxSurface, GeometryDescription, LaneValues, LightKind, MaterialModel,
+    Projection, Receivers, Response, SensorKind, Side, SpectrumMode, SpotBeam,
 };
 
 use crate::{TRIANGLE, describe, files, load};
@@ -331,5 +331,34 @@ fn sensors_have_the_defaults_of_the_help() {
     assert_eq!(
         (side, of, sensors[1].response),
         (Side::Front, FluxOf::Incident, None)
+    );
+}
+
+fn camera_scene(keys: &str) -> String {
+    format!(
+        "[[sensors]]\nkind = \"camera\"\nname = \"eye\"\nposition = [0, 0, 1]\nlook_at = [1, 0, 1]\nresolution = [8, 8]\n{keys}"
+    )
+}
+
+#[test]
+fn every_projection_has_its_name() {
+    let fov = Angle::from_degrees(150.0);
+    let fisheye = |mapping| Projection::Fisheye { mapping, fov };
+    for (name, expected) in [
+        ("perspective", Projection::Perspective { fov }),
+        ("fisheye-equidistant", fisheye(Fisheye::Equidistant)),
+        ("fisheye-equisolid", fisheye(Fisheye::Equisolid)),
+        ("fisheye-hemispherical", fisheye(Fisheye::Hemispherical)),
+    ] {
+        let keys = format!("fov = \"150 deg\"\nprojection = {name:?}");
+        let scene = describe(&camera_scene(&keys));
+        let SensorKind::Camera(camera) = &scene.sensors[0].kind else {
+            panic!("no camera")
+        };
+        assert_eq!(camera.projection, expected);
+    }
+    let scene = describe(&camera_scene("projection = \"panorama\""));
+    assert!(
+        matches!(&scene.sensors[0].kind, SensorKind::Camera(camera) if camera.projection == Projection::Panorama)
     );
 }

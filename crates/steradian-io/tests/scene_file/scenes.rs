@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use steradian::geometry::{Point, Vector};
 use steradian::quantity::Amount;
 use steradian::scene::description::{
-    EmissionAmount, GeometryDescription, LaneValues, MaterialModel, SceneDescription, SensorKind,
-    ShapeDescription, SpectrumMode,
+    EmissionAmount, GeometryDescription, LaneValues, MaterialModel, Projection, SceneDescription,
+    SensorKind, ShapeDescription, SpectrumMode,
 };
 use steradian_io::diagnostic::render;
 use steradian_io::files::DiskFiles;
@@ -165,5 +165,8 @@ fn the_light_and_camera_of_the_cornell_box_are_mitsubas() {
             == 0.0
     );
     assert_eq!(camera.up, Vector::new(0.0, 0.0, 1.0));
-    assert!((camera.fov.to_degrees() - 39.3077).abs() < 1e-12);
+    let Projection::Perspective { fov } = camera.projection else {
+        panic!("{:?}", camera.projection)
+    };
+    assert!((fov.to_degrees() - 39.3077).abs() < 1e-12);
 }

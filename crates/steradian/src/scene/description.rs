@@ -12,7 +12,7 @@ use crate::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
     LuminousFlux, LuminousIntensity, Radiance,
 };
-pub use crate::sensor::{FluxOf, Response};
+pub use crate::sensor::{Fisheye, FluxOf, Projection, Response};
 pub use crate::spectrum::LaneValues;
 
 /// Everything a run needs to know about a scene.
@@ -478,17 +478,17 @@ impl FluxSurface {
     }
 }
 
-/// A perspective camera.
+/// A camera.
 #[derive(Clone, Debug)]
 pub struct CameraDescription {
-    /// The eye.
+    /// The eye: the middle of the lens, or of the plane from which an orthographic camera looks.
     pub position: Point,
     /// The point in the middle of the picture.
     pub look_at: Point,
     /// Up in the picture.
     pub up: Vector,
-    /// Full horizontal angle of view.
-    pub fov: Angle,
+    /// How directions become places in the picture.
+    pub projection: Projection,
     /// Width and height in pixels.
     pub resolution: [u32; 2],
 }

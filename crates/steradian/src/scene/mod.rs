@@ -2,6 +2,7 @@
 
 mod appearance;
 mod box_form;
+mod cameras;
 pub mod description;
 mod forms;
 mod geometry;

@@ -2,6 +2,7 @@
 
 use std::cell::LazyCell;
 
+use super::cameras::camera_of;
 use super::description::{self, Receivers, SceneDescription, SensorDescription, SensorKind, Side};
 use super::forms::Forms;
 use super::geometry::virtual_form;
@@ -9,7 +10,7 @@ use super::lights::Builder;
 use super::receivers::{direction_of, no_points};
 use super::{Fault, Part, Problem};
 use crate::geometry::{Point, Vector};
-use crate::sensor::{Camera, FluxOf, FluxSurface, Kind, Readout, Response, Sensor, readout};
+use crate::sensor::{FluxOf, FluxSurface, Kind, Readout, Response, Sensor, readout};
 use crate::shape::{ShapeId, Solid, Surfaces};
 use crate::spectrum::Lanes;
 
@@ -261,35 +262,4 @@ fn radiance(rays: &[(Point, Vector)]) -> Result<Kind, Fault> {
         .iter()
         .map(|&(origin, direction)| Ok((origin, direction_of("rays", direction)?)));
     Ok(Kind::Radiance(rays.collect::<Result<_, Fault>>()?))
-}
-
-fn camera_of(camera: &description::CameraDescription) -> Result<Kind, Fault> {
-    let degrees = camera.fov.to_degrees();
-    if !(degrees > 0.0 && degrees < 180.0) {
-        return Err((
-            "fov",
-            format!("a perspective camera's fov lies between 0 and 180 deg, not {degrees} deg"),
-        ));
-    }
-    if camera
-        .resolution
-        .iter()
-        .any(|&pixels| pixels == 0 || pixels > 65_536)
-    {
-        return Err((
-            "resolution",
-            "a picture has 1 to 65536 pixels each way".into(),
-        ));
-    }
-    let prepared = Camera::new(
-        camera.position,
-        camera.look_at,
-        camera.up,
-        camera.fov,
-        camera.resolution,
-    );
-    prepared.map(Kind::Camera).ok_or((
-        "look_at",
-        "look_at differs from position, and up from the direction of view".into(),
-    ))
 }

@@ -1,51 +1,82 @@
-//! A perspective camera: radiance arriving at a point through a plane of pixels.
+//! Cameras: radiance arriving along the rays of a film.
 //!
-//! Pixel (x, y) of film position (f_x, f_y), in pixels from the upper left corner, looks along
-//! w + (2f_x/W − 1)·tan(fov/2)·right − (2f_y/W − H/W)·tan(fov/2)·up, where fov is the full horizontal angle of view.
+//! A film position (f_x, f_y) is in pixels from the upper left corner of W × H. It is scaled to the plane of the
+//! [`Projection`], (a, b) with a to the right and b downwards, which says where its ray starts and goes. What is measured
+//! is the radiance along that ray, in every projection: no cosine, no weight of the lens, no vignetting. A camera is a
+//! sensor, and lights that it looks at directly count.
+//!
+//! | projection | (a, b) |
+//! |---|---|
+//! | perspective, thin lens, orthographic | (2f_x − W, 2f_y − H) / W |
+//! | panorama | ((2f_x − W) / W, (2f_y − H) / H) |
+//! | fisheye | (2f_x − W, 2f_y − H) / min(W, H) |
+//!
+//! Rays are given in f64; the batched loops of the transport have their twin in f32, which is tested against it.
 
-use crate::geometry::{Direction, Point, Vector};
-use crate::quantity::Angle;
+mod projection;
 
-/// A perspective camera.
+pub use projection::{Fisheye, Projection};
+
+use crate::geometry::{Direction, Frame, Point, Vector};
+use crate::quantity::SolidAngle;
+
+/// A camera: a place, a frame and a projection.
+///
+/// ```
+/// use steradian::geometry::{Point, Vector};
+/// use steradian::quantity::Angle;
+/// use steradian::sensor::{Camera, Fisheye, Projection};
+///
+/// // In an equal-area fisheye of 180° every pixel of the circle sees 2π sr / (π 200²).
+/// let projection = Projection::Fisheye { mapping: Fisheye::Equisolid, fov: Angle::from_degrees(180.0) };
+/// let (up, north) = (Point::new(0.0, 0.0, 1.0), Vector::new(0.0, 1.0, 0.0));
+/// let camera = Camera::new(Point::ORIGIN, up, north, projection, [400, 400]).unwrap();
+/// for film in [[200.0, 200.0], [10.0, 190.0]] {
+///     assert!((camera.solid_angle(film).to_steradians() - 5e-5).abs() < 1e-18);
+/// }
+/// assert!(camera.ray([10.0, 10.0], [0.0; 2]).is_none(), "outside the circle nothing is seen");
+/// ```
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// The eye.
+    /// The eye: the middle of the lens, or of the plane from which an orthographic camera looks.
     pub position: Point,
     /// Width and height in pixels.
     pub resolution: [u32; 2],
-    forward: Vector,
-    right: Vector,
-    up: Vector,
+    projection: Projection,
+    /// To the right, down and ahead.
+    frame: Frame,
 }
 
 impl Camera {
     /// `None` when `look_at` is the position or `up` is along the view.
+    ///
+    /// The numbers of the projection are taken as they are; [`Scene::new`](crate::scene::Scene::new) refuses those
+    /// without a meaning.
     pub fn new(
         position: Point,
         look_at: Point,
         up: Vector,
-        fov: Angle,
+        projection: Projection,
         resolution: [u32; 2],
     ) -> Option<Self> {
-        let forward = Direction::new(look_at - position).ok()?;
-        let right = Direction::new(forward.to_vector().cross(up)).ok()?;
-        let true_up = right.to_vector().cross(forward.to_vector());
-        let half = libm::tan(0.5 * fov.to_radians());
+        let ahead = Direction::new(look_at - position).ok()?;
+        let right = Direction::new(ahead.to_vector().cross(up)).ok()?;
         Some(Self {
             position,
             resolution,
-            forward: forward.to_vector(),
-            right: right.to_vector() * half,
-            up: true_up * half,
+            projection,
+            frame: Frame::from_normal_and_tangent(ahead, right.to_vector())?,
         })
     }
 
-    /// Direction (not normalised) through a film position in pixels.
-    pub fn direction(&self, film: [f64; 2]) -> Vector {
-        let [width, height] = self.resolution.map(f64::from);
-        let x = 2.0 * film[0] / width - 1.0;
-        let y = (2.0 * film[1] - height) / width;
-        self.forward + self.right * x - self.up * y
+    /// How directions become film positions.
+    pub const fn projection(&self) -> Projection {
+        self.projection
+    }
+
+    /// Right, down and ahead.
+    pub const fn frame(&self) -> Frame {
+        self.frame
     }
 
     /// The same view in another resolution.
@@ -56,55 +87,56 @@ impl Camera {
         }
     }
 
-    /// Forward, right and up vectors that [`direction`](Self::direction) combines.
-    pub fn axes(&self) -> [Vector; 3] {
-        [self.forward, self.right, self.up]
+    /// Where the ray of a film position starts and goes; `None` outside the image circle of a fisheye.
+    ///
+    /// `lens` is a place on the unit disc of the lens, (0, 0) its middle; only a thin lens heeds it.
+    pub fn ray(&self, film: [f64; 2], lens: [f64; 2]) -> Option<(Point, Direction)> {
+        let (start, towards) = self.projection.ray(self.to_plane(film), lens)?;
+        let world = |local| self.frame.vector_to_world(local);
+        Some((
+            self.position + world(start),
+            Direction::new(world(towards)).ok()?,
+        ))
+    }
+
+    /// The film position at which a point is seen through this place of the lens; also beyond the borders of the
+    /// picture. `None` where no film position sees it: behind the camera, or outside the image circle.
+    pub fn film_of(&self, point: Point, lens: [f64; 2]) -> Option<[f64; 2]> {
+        let local = self.frame.vector_to_local(point - self.position);
+        let plane = self.projection.plane_of(local, lens)?;
+        let (middle, scale) = self.middle_and_scale();
+        Some(std::array::from_fn(|axis| {
+            middle[axis] + scale[axis] * plane[axis]
+        }))
+    }
+
+    /// Solid angle per pixel at a film position, seen from the middle of the lens: the limit for small pixels of the
+    /// solid angle that a pixel covers. It is 0 outside an image circle and for an orthographic camera, whose rays are parallel.
+    pub fn solid_angle(&self, film: [f64; 2]) -> SolidAngle {
+        let (_, scale) = self.middle_and_scale();
+        let density = self.projection.solid_angle_density(self.to_plane(film));
+        SolidAngle::from_steradians(density / (scale[0] * scale[1]))
+    }
+
+    /// The place on the plane of projection of a film position.
+    fn to_plane(&self, film: [f64; 2]) -> [f64; 2] {
+        let (middle, scale) = self.middle_and_scale();
+        std::array::from_fn(|axis| (film[axis] - middle[axis]) / scale[axis])
+    }
+
+    /// The middle of the film, and pixels per unit of the plane of projection.
+    pub(crate) fn middle_and_scale(&self) -> ([f64; 2], [f64; 2]) {
+        let middle = self.resolution.map(|pixels| 0.5 * f64::from(pixels));
+        let scale = match self.projection {
+            Projection::Perspective { .. }
+            | Projection::ThinLens { .. }
+            | Projection::Orthographic { .. } => [middle[0]; 2],
+            Projection::Panorama => middle,
+            Projection::Fisheye { .. } => [middle[0].min(middle[1]); 2],
+        };
+        (middle, scale)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn camera() -> Camera {
-        let (eye, target) = (Point::new(1.0, 1.0, 1.0), Point::new(1.0, 5.0, 1.0));
-        let up = Vector::new(0.0, 0.3, 2.0);
-        Camera::new(eye, target, up, Angle::from_degrees(90.0), [400, 200]).unwrap()
-    }
-
-    #[test]
-    fn the_middle_looks_ahead_and_the_edges_along_the_field_of_view() {
-        let expected = [
-            ([200.0, 100.0], [0.0, 1.0, 0.0]),
-            ([400.0, 100.0], [1.0, 1.0, 0.0]),
-            ([0.0, 100.0], [-1.0, 1.0, 0.0]),
-            ([200.0, 0.0], [0.0, 1.0, 0.5]),
-            ([200.0, 200.0], [0.0, 1.0, -0.5]),
-        ];
-        for (film, direction) in expected {
-            let found = camera().direction(film);
-            assert!(
-                (found - Vector::from(direction)).length() < 1e-15,
-                "{film:?}: {found:?}"
-            );
-        }
-    }
-
-    #[test]
-    fn another_resolution_shows_the_same_view() {
-        let small = camera().with_resolution([40, 20]);
-        let difference = small.direction([7.0, 3.0]) - camera().direction([70.0, 30.0]);
-        assert!(difference.length() < 1e-15);
-        assert_eq!(small.axes(), camera().axes());
-    }
-
-    #[test]
-    fn a_camera_needs_a_direction_and_an_up() {
-        let fov = Angle::from_degrees(60.0);
-        let new = |target, up| Camera::new(Point::ORIGIN, target, up, fov, [2, 2]);
-        let (x, z) = (Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 0.0, 1.0));
-        assert!(new(Point::ORIGIN, z).is_none());
-        assert!(new(Point::ORIGIN + x, x * -2.0).is_none());
-        assert!(new(Point::ORIGIN + x * f64::NAN, z).is_none());
-    }
-}
+mod tests;

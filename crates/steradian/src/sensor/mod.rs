@@ -12,7 +12,7 @@
 mod camera;
 pub(crate) mod readout;
 
-pub use camera::Camera;
+pub use camera::{Camera, Fisheye, Projection};
 pub use readout::{Readout, Response, readouts};
 
 use serde::{Deserialize, Serialize};

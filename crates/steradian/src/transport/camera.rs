@@ -1,59 +1,69 @@
 //! Pictures: radiance arriving at a camera, by paths through the film.
+//!
+//! Of the four numbers of block 0 a sample's first two are its place on the film. A camera without a lens lets the first
+//! vertex have the other two for its light; a thin lens takes them for the place on the lens, so that film and lens are
+//! stratified together, and the first vertex draws its numbers from a block of its own.
 
-use glam::Vec3;
+mod optics;
 
+use self::optics::Optics;
 use super::columns::{BATCH, Flight, Workspace};
 use super::path::Tracer;
 use super::profile::Stage;
+use super::scatter;
 use super::tables::Tables;
 use crate::estimation::film::{PixelBatch, PixelSampler};
 use crate::sensor::Camera;
+
+/// Block of the first vertex behind a lens, out of the way of the blocks of a path's segments.
+const LIGHT_BLOCK: u32 = 1 << 30;
 
 /// Samples the pixels of a camera.
 pub(super) struct CameraSampler<'a> {
     tracer: Tracer<'a>,
     origin: [f32; 3],
-    axes: [Vec3; 3],
-    resolution: [f32; 2],
+    optics: Optics,
 }
 
 impl<'a> CameraSampler<'a> {
     pub fn new(tracer: Tracer<'a>, camera: &Camera) -> Self {
-        let axes = camera
-            .axes()
-            .map(|axis| Vec3::from_array(axis.to_array().map(|x| x as f32)));
-        let origin = tracer.tables.scene.surfaces().to_kernel(camera.position);
         Self {
+            origin: tracer.tables.scene.surfaces().to_kernel(camera.position),
+            optics: Optics::new(camera),
             tracer,
-            origin,
-            axes,
-            resolution: camera.resolution.map(|pixels| pixels as f32),
         }
     }
 
-    /// Direction through a film position, as [`Camera::direction`] in f32.
-    #[inline(always)]
-    fn direction(&self, x: f32, y: f32) -> [f32; 3] {
-        let [width, height] = self.resolution;
-        let across = 2.0 * x / width - 1.0;
-        let down = (2.0 * y - height) / width;
-        (self.axes[0] + self.axes[1] * across - self.axes[2] * down)
-            .normalize()
-            .into()
-    }
-
+    /// Sends a path from every film position that sees anything.
     fn launch(&self, batch: &PixelBatch<'_>, paths: &mut Workspace) {
         for i in 0..batch.len() {
-            let direction = self.direction(batch.x[i], batch.y[i]);
+            let numbers = [batch.lens[0][i], batch.lens[1][i]];
+            let Some((start, direction)) = self.optics.ray(batch.x[i], batch.y[i], numbers) else {
+                continue;
+            };
             paths.flights.push(Flight {
-                origin: self.origin,
-                direction,
+                origin: std::array::from_fn(|axis| self.origin[axis] + start[axis]),
+                direction: direction.into(),
                 throughput: [1.0; 4],
                 pdf: f32::INFINITY,
                 identity: (i as u32, batch.keys[i], batch.indices[i]),
-                light: [batch.lens[0][i], batch.lens[1][i]],
+                light: numbers,
             });
         }
+        if self.optics.has_lens() {
+            self.renew_light_numbers(paths);
+        }
+    }
+
+    fn renew_light_numbers(&self, paths: &mut Workspace) {
+        let (flights, uniforms) = (&mut paths.flights, &mut paths.uniforms);
+        scatter::fill(&self.tracer, &flights.identity, LIGHT_BLOCK, uniforms);
+        std::mem::swap(&mut flights.light_u, &mut uniforms[2]);
+        std::mem::swap(&mut flights.light_v, &mut uniforms[3]);
+    }
+
+    fn tables(&self) -> &Tables<'_> {
+        self.tracer.tables
     }
 }
 
@@ -77,11 +87,5 @@ impl PixelSampler for CameraSampler<'_> {
             }
         }
         paths.watch.lap(Stage::Camera);
-    }
-}
-
-impl CameraSampler<'_> {
-    fn tables(&self) -> &Tables<'_> {
-        self.tracer.tables
     }
 }

@@ -15,7 +15,7 @@ use super::up::UpAxis;
 use super::value::Read;
 
 pub use lights::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
-pub use sensors::{GRID, SENSORS};
+pub use sensors::{GRID, PROJECTION_NAMES, SENSORS};
 pub use shapes::{
     EMISSION, FACE_NAMES, FACES, OPENING, PORT, REPEAT, SCALE, SHAPES, SURFACES, TRANSFORM_STEP,
 };

@@ -48,6 +48,26 @@ const RAYS: &[Key] = &[Key::required(
     "[x, y, z, dx, dy, dz] of each, d the way the sensor looks",
 )];
 
+/// The names of projections.
+pub const PROJECTION_NAMES: &[&str] = &[
+    "perspective",
+    "thin-lens",
+    "orthographic",
+    "panorama",
+    "fisheye-equidistant",
+    "fisheye-equisolid",
+    "fisheye-hemispherical",
+];
+const PROJECTION: Value = Value::Choice(PROJECTION_NAMES);
+const THIN_LENS: &[&str] = &["thin-lens"];
+const WITH_FOV: &[&str] = &[
+    "perspective",
+    "thin-lens",
+    "fisheye-equidistant",
+    "fisheye-equisolid",
+    "fisheye-hemispherical",
+];
+
 pub const SENSORS: Family = Family {
     noun: "sensor",
     tag: "kind",
@@ -74,7 +94,7 @@ pub const SENSORS: Family = Family {
         ),
         Kind::new(
             "camera",
-            "A picture of radiance in perspective",
+            "A picture of radiance",
             &[
                 Key::required("position", Value::Point, "Where it is"),
                 Key::required(
@@ -87,13 +107,33 @@ pub const SENSORS: Family = Family {
                     Value::Direction,
                     "Up in the picture; up in the scene unless given",
                 ),
-                Key::required("fov", Angle::VALUE, "Full horizontal angle of view"),
+                Key::default(
+                    "projection",
+                    PROJECTION,
+                    "\"perspective\"",
+                    "How directions become places in the picture",
+                ),
+                Key::required(
+                    "fov",
+                    Angle::VALUE,
+                    "Full angle of view: across the width, or across the circle of a fisheye",
+                )
+                .with("projection", WITH_FOV),
+                Key::required("aperture_radius", Length::VALUE, "Radius of the lens")
+                    .with("projection", THIN_LENS),
+                Key::required(
+                    "focus_distance",
+                    Length::VALUE,
+                    "Distance of the plane that is sharp, along the axis",
+                )
+                .with("projection", THIN_LENS),
+                Key::required("width", Length::VALUE, "Width of the picture in the scene")
+                    .with("projection", &["orthographic"]),
                 Key::required(
                     "resolution",
                     Value::Array(&Value::Count, 2),
                     "Width and height in pixels",
                 ),
-                Key::not_yet("projection"),
             ],
         ),
         Kind::not_yet("intensity"),

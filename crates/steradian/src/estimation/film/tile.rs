@@ -95,7 +95,7 @@ impl<'a, S: PixelSampler> Painter<'a, S> {
         Self {
             sampler,
             film,
-            weights: Weights::gaussian(),
+            weights: Weights::of(film.filter),
             instructions: InstructionSet::detect(),
         }
     }
@@ -154,7 +154,7 @@ impl<'a, S: PixelSampler> Painter<'a, S> {
         check(job, x, y, values);
         let (tile, sums) = (job.tile, &mut job.sums[..]);
         match self.film.filter {
-            Filter::Gaussian => self.instructions.run(Splat {
+            Filter::Gaussian | Filter::BlackmanHarris => self.instructions.run(Splat {
                 weights: &self.weights,
                 tile,
                 positions: [x, y],

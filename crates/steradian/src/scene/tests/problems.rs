@@ -1,5 +1,5 @@
 use super::*;
-use crate::quantity::{Exitance, Flux, LuminousExitance};
+use crate::quantity::{Exitance, Flux, Length, LuminousExitance};
 use crate::sensor::FluxOf;
 
 /// The one mistake is in the geometry of shape 1.
@@ -510,13 +510,65 @@ fn sensors_without_points_or_directions() {
     refused(grid([u32::MAX; 2], Some(up)), "count", "10000000");
 }
 
+fn perspective(fov: f64) -> Projection {
+    let fov = Angle::from_degrees(fov);
+    Projection::Perspective { fov }
+}
+
+#[test]
+fn projections_without_a_meaning() {
+    let refused = |projection, key: &'static str, says: &str| {
+        let mut description = valid();
+        let camera = CameraDescription {
+            position: Point::ORIGIN,
+            look_at: Point::new(1.0, 0.0, 0.0),
+            up: Vector::new(0.0, 0.0, 1.0),
+            projection,
+            resolution: [4, 3],
+        };
+        description
+            .sensors
+            .push(sensor("eye", SensorKind::Camera(camera)));
+        one_problem(&description, Part::Sensor(1), Some(key), says);
+    };
+    let thin_lens = |aperture_radius, focus_distance| Projection::ThinLens {
+        fov: Angle::from_degrees(40.0),
+        aperture_radius: Length::from_metres(aperture_radius),
+        focus_distance: Length::from_metres(focus_distance),
+    };
+    let fisheye = |mapping, fov| Projection::Fisheye {
+        mapping,
+        fov: Angle::from_degrees(fov),
+    };
+    refused(
+        thin_lens(-0.1, 1.0),
+        "aperture_radius",
+        "above 0, not -0.1 m",
+    );
+    refused(thin_lens(f64::NAN, 1.0), "aperture_radius", "above 0");
+    refused(thin_lens(0.1, 0.0), "focus_distance", "above 0, not 0 m");
+    let width = Length::from_metres(f64::INFINITY);
+    refused(Projection::Orthographic { width }, "width", "above 0");
+    refused(
+        fisheye(Fisheye::Equidistant, 361.0),
+        "fov",
+        "at most 360 deg",
+    );
+    refused(fisheye(Fisheye::Equisolid, 0.0), "fov", "at most 360 deg");
+    refused(
+        fisheye(Fisheye::Hemispherical, 181.0),
+        "fov",
+        "at most 180 deg",
+    );
+}
+
 #[test]
 fn cameras_that_cannot_look() {
     let camera = || CameraDescription {
         position: Point::ORIGIN,
         look_at: Point::new(1.0, 0.0, 0.0),
         up: Vector::new(0.0, 0.0, 1.0),
-        fov: Angle::from_degrees(60.0),
+        projection: perspective(60.0),
         resolution: [4, 3],
     };
     let refused = |camera, key: &'static str| {
@@ -528,7 +580,7 @@ fn cameras_that_cannot_look() {
     };
     refused(
         CameraDescription {
-            fov: Angle::from_degrees(180.0),
+            projection: perspective(180.0),
             ..camera()
         },
         "fov",

@@ -3,6 +3,8 @@ use crate::estimation::film::{Filter, PASSES, PixelBatch, merge_exposures};
 use crate::estimation::{Progress, Silent, Stopping};
 use crate::sampling::block;
 
+const FILTERS: [Filter; 3] = [Filter::Gaussian, Filter::Box, Filter::BlackmanHarris];
+
 /// A ramp with noise: x + 2y in the first channel, the same plus noise of mean 0 in the second, 1 in the third.
 struct Ramp;
 
@@ -47,13 +49,19 @@ fn image(filter: Filter, plan: &Plan) -> Exposure {
 /// A linear function through a symmetric filter of integral one is its value at the centre of the pixel.
 #[test]
 fn every_pixel_is_unbiased_up_to_the_border() {
-    for filter in [Filter::Gaussian, Filter::Box] {
+    for filter in FILTERS {
         let image = image(filter, &plan(Stopping::at_samples(64)));
         let centres = (0..45)
             .flat_map(|y| (0..70).map(move |x| f64::from(x) + 0.5 + 2.0 * (f64::from(y) + 0.5)));
         let (mut sum, mut squares, mut covered) = (0.0, 0.0, 0.0);
         for ((value, error), exact) in image.values().iter().zip(image.std_errors()).zip(centres) {
-            assert!((value[2] - 1.0).abs() < 0.02);
+            // With the box a constant is one but for rounding; with the others its weights are sampled, about 8e-4 off.
+            let tolerance = if filter == Filter::Box { 1e-6 } else { 0.02 };
+            assert!(
+                (value[2] - 1.0).abs() < tolerance,
+                "{filter:?}: {}",
+                value[2]
+            );
             sum += value[1] - exact;
             squares += error[1] * error[1];
             covered += f64::from(u8::from((value[1] - exact).abs() <= 3.182 * error[1]));
@@ -104,7 +112,7 @@ fn intervals_of_tiles_hold_the_exact_mean() {
 
 #[test]
 fn bits_do_not_depend_on_threads_or_shards() {
-    for filter in [Filter::Gaussian, Filter::Box] {
+    for filter in FILTERS {
         let plan = plan(Stopping::at_samples(300));
         let whole = image(filter, &plan);
         assert_eq!(
