@@ -90,7 +90,7 @@ impl UpsamplingTable {
             _ => 2,
         };
         let z = rgb[largest];
-        if !(z > 0.0) {
+        if z.is_nan() || z <= 0.0 {
             return BLACK;
         }
         let [x, y] = [1, 2].map(|next| evenly(rgb[(largest + next) % 3] / z));
