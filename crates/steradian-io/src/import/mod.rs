@@ -3,3 +3,4 @@
 pub mod image;
 pub mod obj;
 pub mod points;
+pub mod spectrum;
