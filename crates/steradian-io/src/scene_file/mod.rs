@@ -26,6 +26,7 @@
 mod context;
 mod fields;
 mod help;
+mod imported;
 mod keys;
 mod lanes;
 mod light;
@@ -73,6 +74,10 @@ pub struct LoadedScene {
 impl LoadedScene {
     /// Shows a problem that was found in the description at its place in the file.
     pub fn diagnostic(&self, problem: &Problem) -> Diagnostic {
+        if self.source.text.is_empty() {
+            let diagnostic = Diagnostic::error(problem.to_string()).about(&self.source);
+            return problem.hint.iter().fold(diagnostic, Diagnostic::hint);
+        }
         let diagnostic = Diagnostic::error(problem.message.as_str());
         let diagnostic = match self.map.span(problem.place) {
             Some(span) => diagnostic.at(&self.source, span),
@@ -82,7 +87,7 @@ impl LoadedScene {
     }
 }
 
-/// Reads the scene file at `path`.
+/// Reads the scene file at `path`: TOML, or glTF if its name ends in `.gltf` or `.glb`.
 ///
 /// # Errors
 /// Everything that is wrong with it, in the order of the file.
@@ -95,6 +100,9 @@ pub fn read_scene(path: &Path, files: &dyn Files) -> Result<LoadedScene, Vec<Dia
     let refuse = |message: String| vec![Diagnostic::error(message).about(&empty)];
     if let Some(reason) = not_a_scene(path) {
         return Err(refuse(reason));
+    }
+    if imported::is_gltf(path) {
+        return imported::read_gltf(path, files).map_err(|error| refuse(error.to_string()));
     }
     let bytes = files
         .read(path)
@@ -115,7 +123,7 @@ fn not_a_scene(path: &Path) -> Option<String> {
         "obj" => Some(
             "an OBJ file is a mesh: name it in a scene file by `kind = \"mesh\"` and `file`".into(),
         ),
-        "glb" | "gltf" | "rad" | "xml" => Some(format!(
+        "rad" | "xml" => Some(format!(
             "scenes from .{extension} files are not supported yet"
         )),
         _ => None,

@@ -513,7 +513,7 @@ fn scenes_that_cannot_be_read() {
         ("none.toml", "cannot read the scene file: no such file"),
         ("bytes.toml", "not UTF-8"),
         ("room.obj", "an OBJ file is a mesh"),
-        ("room.glb", "not supported yet"),
+        ("room.glb", "cannot read room.glb: no such file"),
     ] {
         let found = read_scene(Path::new(name), &files).unwrap_err();
         assert_eq!(found.len(), 1, "{name}");
