@@ -18,7 +18,7 @@
 //! | [`Radiance`] | L · W/(m² sr) | [`Luminance`] | Lᵥ · cd/m² |
 //!
 //! and of space and time [`Length`] (m), [`Area`] (m²), [`Angle`] (rad), [`SolidAngle`] and
-//! [`ProjectedSolidAngle`] (sr), [`Time`] (s). [`LuminousEfficacy`] (lm/W) leads from the left half to the right.
+//! [`ProjectedSolidAngle`] (sr), [`Time`] (s), [`Temperature`] (K). [`LuminousEfficacy`] (lm/W) leads from the left half to the right.
 //!
 //! Radiant quantities hold either one number (`Flux`, short for `Flux<f64>`) or one number a lane
 //! (`Flux<Spectrum>`). Lanes are always radiant, so photometric quantities hold one number.
@@ -70,6 +70,7 @@ mod parse;
 mod photometric;
 mod radiant;
 mod spectrum;
+mod temperature;
 mod time;
 mod unit;
 mod value;
@@ -88,6 +89,7 @@ pub use radiant::{
     Energy, Exitance, Flux, Intensity, Irradiance, Radiance, RadiantExposure, ScalarIrradiance,
 };
 pub use spectrum::Spectrum;
+pub use temperature::Temperature;
 pub use time::Time;
 pub use unit::{Unit, UnitTable};
 pub use value::{Quantity, Value};

@@ -6,7 +6,7 @@ use super::unit::UnitTable;
 use super::{
     Angle, Area, Energy, Flux, Illuminance, Intensity, Irradiance, Length, Luminance,
     LuminousEfficacy, LuminousEnergy, LuminousExposure, LuminousFlux, LuminousIntensity, Quantity,
-    Radiance, RadiantExposure, SolidAngle, Time,
+    Radiance, RadiantExposure, SolidAngle, Temperature, Time,
 };
 
 /// What a place in the input asks for: shown in every message about a quantity.
@@ -202,12 +202,13 @@ fn number_length(text: &[u8]) -> usize {
 }
 
 /// One table of each unit, so that a misplaced unit can be named.
-const KNOWN_TABLES: [&UnitTable; 18] = [
+const KNOWN_TABLES: [&UnitTable; 19] = [
     Length::TABLE,
     Area::TABLE,
     Angle::TABLE,
     SolidAngle::TABLE,
     Time::TABLE,
+    Temperature::TABLE,
     Energy::TABLE,
     Flux::TABLE,
     Irradiance::TABLE,
