@@ -1,6 +1,5 @@
 //! `steradian area`: the area of a shape in closed form and by quadrature of A = ∫ dA.
 
-use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -10,8 +9,6 @@ use steradian::quantity::Length;
 use steradian::scene::Problem;
 use steradian::scene::description::GeometryDescription;
 use steradian::shape::{Form, quadrature};
-use steradian_io::files::{DiskFiles, Files};
-use steradian_io::import::obj;
 use steradian_io::report::columns::Columns;
 use steradian_io::report::numbers::{exact, significant};
 
@@ -25,7 +22,7 @@ use crate::{load, output, values};
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
-    /// rectangle, disc, sphere or polygon; or a mesh (.obj) or scene file (.toml), whose shapes are listed
+    /// rectangle, disc, sphere or polygon; or a mesh (.obj, .ply, .stl) or scene file (.toml), whose shapes are listed
     #[arg(value_name = "SHAPE|FILE")]
     target: String,
     /// rectangle: WIDTH HEIGHT; disc: RADIUS and perhaps INNER; sphere: RADIUS; polygon: corners X,Y,Z in metres. Lengths may have a unit
@@ -87,12 +84,6 @@ fn forms(arguments: &Arguments) -> Result<Vec<(String, Form)>, Failure> {
 }
 
 fn from_file(path: &Path) -> Result<Vec<(String, Form)>, Failure> {
-    let is_mesh = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("obj"));
-    if is_mesh {
-        return Ok(vec![(path.display().to_string(), mesh(path)?)]);
-    }
     let scene = load::scene(&PathBuf::from(path))?.scene;
     let shapes = scene.surfaces().shapes().iter().zip(0..);
     Ok(shapes
@@ -103,17 +94,6 @@ fn from_file(path: &Path) -> Result<Vec<(String, Form)>, Failure> {
             )
         })
         .collect())
-}
-
-fn mesh(path: &Path) -> Result<Form, Failure> {
-    let named = |error: &dyn Display| Failure::message(format!("{}: {error}", path.display()));
-    let bytes = DiskFiles::default()
-        .read(path)
-        .map_err(|error| named(&error))?;
-    let mesh = obj::read(&bytes).map_err(|error| named(&error))?;
-    GeometryDescription::Mesh(mesh.into())
-        .form(&Transform::IDENTITY)
-        .map_err(|problem| named(&problem.message))
 }
 
 fn lengths<const N: usize>(sizes: &[String], expected: &str) -> Result<[f64; N], Failure> {

@@ -25,7 +25,7 @@ const DIGITS: i32 = 6;
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
-    /// Scene file (TOML)
+    /// Scene file (TOML), or a mesh file (OBJ, PLY, STL)
     scene: PathBuf,
 }
 

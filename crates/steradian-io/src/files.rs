@@ -1,5 +1,6 @@
 //! Where a reader gets the bytes of files from.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read};
@@ -55,6 +56,42 @@ impl Files for DiskFiles {
                 self.size_limit
             )));
         }
+        Ok(bytes)
+    }
+}
+
+/// Files of another source, with the hash of all that was read of them.
+pub struct HashedFiles<'f> {
+    files: &'f dyn Files,
+    hasher: RefCell<blake3::Hasher>,
+}
+
+impl<'f> HashedFiles<'f> {
+    /// The same files, none read yet.
+    pub fn new(files: &'f dyn Files) -> Self {
+        Self {
+            files,
+            hasher: RefCell::default(),
+        }
+    }
+
+    /// Counts these bytes as read.
+    pub fn add(&self, bytes: &[u8]) {
+        let mut hasher = self.hasher.borrow_mut();
+        hasher.update(&(bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    }
+
+    /// BLAKE3 of the length and the bytes of each file in order of reading, in hexadecimal.
+    pub fn hash(&self) -> String {
+        self.hasher.borrow().finalize().to_hex().to_string()
+    }
+}
+
+impl Files for HashedFiles<'_> {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        let bytes = self.files.read(path)?;
+        self.add(&bytes);
         Ok(bytes)
     }
 }
@@ -121,6 +158,25 @@ mod tests {
             .read(&directory.join("none"))
             .unwrap_err();
         assert_eq!(missing.kind(), io::ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn the_hash_tells_files_apart_by_content_and_order() {
+        let files = MemoryFiles::default()
+            .with("a", "1")
+            .with("b", "23")
+            .with("c", "12")
+            .with("d", "3");
+        let hash = |names: [&str; 2]| {
+            let hashed = HashedFiles::new(&files);
+            for name in names {
+                hashed.read(Path::new(name)).unwrap();
+            }
+            hashed.hash()
+        };
+        assert_eq!(hash(["a", "b"]), hash(["a", "b"]));
+        assert_ne!(hash(["a", "b"]), hash(["b", "a"]));
+        assert_ne!(hash(["a", "b"]), hash(["c", "d"]));
     }
 
     #[test]

@@ -6,11 +6,12 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use steradian::scene::description::MeshData;
+use steradian::scene::description::MaterialDescription;
 
 use crate::diagnostic::{Diagnostic, SourceFile};
-use crate::files::{Files, reason};
+use crate::files::{Files, HashedFiles, reason};
 
+use super::mesh::LoadedMesh;
 use super::up::UpAxis;
 
 /// The state of one reading.
@@ -19,10 +20,11 @@ pub(super) struct Context<'f> {
     /// The up axis of the file, known once `[scene]` has been read.
     pub up: Cell<UpAxis>,
     directory: PathBuf,
-    files: &'f dyn Files,
+    files: HashedFiles<'f>,
     problems: RefCell<Vec<Diagnostic>>,
-    hasher: RefCell<blake3::Hasher>,
-    meshes: RefCell<HashMap<String, Option<Arc<MeshData>>>>,
+    meshes: RefCell<HashMap<String, Option<Arc<LoadedMesh>>>>,
+    materials: RefCell<Vec<(MaterialDescription, Range<usize>)>>,
+    warnings: RefCell<Vec<String>>,
 }
 
 impl<'f> Context<'f> {
@@ -32,12 +34,13 @@ impl<'f> Context<'f> {
             source,
             up: Cell::new(UpAxis::Z),
             directory: directory.to_owned(),
-            files,
+            files: HashedFiles::new(files),
             problems: RefCell::default(),
-            hasher: RefCell::default(),
             meshes: RefCell::default(),
+            materials: RefCell::default(),
+            warnings: RefCell::default(),
         };
-        context.hash(context.source.text.as_bytes());
+        context.files.add(context.source.text.as_bytes());
         context
     }
 
@@ -58,12 +61,9 @@ impl<'f> Context<'f> {
 
     /// The bytes of a file that the scene names at `span`.
     pub fn read_file(&self, name: &str, span: Range<usize>) -> Option<Vec<u8>> {
-        let path = self.directory.join(name);
+        let path = self.path_of(name);
         match self.files.read(&path) {
-            Ok(bytes) => {
-                self.hash(&bytes);
-                Some(bytes)
-            }
+            Ok(bytes) => Some(bytes),
             Err(error) => {
                 self.error(
                     span,
@@ -75,12 +75,22 @@ impl<'f> Context<'f> {
         }
     }
 
-    /// The mesh that was read for `key` before, or else the one that `read` gives.
+    /// Where a file is that the scene names.
+    pub fn path_of(&self, name: &str) -> PathBuf {
+        self.directory.join(name)
+    }
+
+    /// Where files come from; what is read of them counts for the hash.
+    pub fn files(&self) -> &dyn Files {
+        &self.files
+    }
+
+    /// The mesh file that was read for `key` before, or else the one that `read` gives.
     pub fn mesh(
         &self,
         key: String,
-        read: impl FnOnce() -> Option<MeshData>,
-    ) -> Option<Arc<MeshData>> {
+        read: impl FnOnce() -> Option<LoadedMesh>,
+    ) -> Option<Arc<LoadedMesh>> {
         if let Some(known) = self.meshes.borrow().get(&key) {
             return known.clone();
         }
@@ -89,19 +99,38 @@ impl<'f> Context<'f> {
         mesh
     }
 
+    /// Adds a material of a file that the scene names at `span`, unless there is one of its name, and gives the name.
+    pub fn add_material(&self, material: MaterialDescription, span: Range<usize>) -> String {
+        let name = material.name.clone();
+        let mut materials = self.materials.borrow_mut();
+        if materials.iter().all(|(known, _)| known.name != name) {
+            materials.push((material, span));
+        }
+        name
+    }
+
+    /// The materials of files, each with the place where the scene names its file.
+    pub fn take_materials(&self) -> (Vec<MaterialDescription>, Vec<Range<usize>>) {
+        self.materials.take().into_iter().unzip()
+    }
+
+    /// Records what was approximated.
+    pub fn warn(&self, warning: String) {
+        self.warnings.borrow_mut().push(warning);
+    }
+
+    /// What was approximated so far.
+    pub fn take_warnings(&self) -> Vec<String> {
+        self.warnings.take()
+    }
+
     /// All problems in the order of the file, or the hash of everything that was read.
     pub fn finish(self) -> Result<String, Vec<Diagnostic>> {
         let mut problems = self.problems.into_inner();
         if problems.is_empty() {
-            return Ok(self.hasher.into_inner().finalize().to_hex().to_string());
+            return Ok(self.files.hash());
         }
         problems.sort_by_key(|problem| problem.span.as_ref().map(|span| span.start));
         Err(problems)
-    }
-
-    fn hash(&self, bytes: &[u8]) {
-        let mut hasher = self.hasher.borrow_mut();
-        hasher.update(&(bytes.len() as u64).to_le_bytes());
-        hasher.update(bytes);
     }
 }

@@ -53,6 +53,7 @@ use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostic, SourceFile};
 use crate::files::{Files, reason};
+use crate::import;
 
 use context::Context;
 use source_map::SourceMap;
@@ -101,8 +102,8 @@ pub fn read_scene(path: &Path, files: &dyn Files) -> Result<LoadedScene, Vec<Dia
     if let Some(reason) = not_a_scene(path) {
         return Err(refuse(reason));
     }
-    if imported::is_gltf(path) {
-        return imported::read_gltf(path, files).map_err(|error| refuse(error.to_string()));
+    if import::is_scene(path) {
+        return imported::read(path, files).map_err(|error| refuse(error.to_string()));
     }
     let bytes = files
         .read(path)
@@ -120,9 +121,6 @@ pub fn read_scene(path: &Path, files: &dyn Files) -> Result<LoadedScene, Vec<Dia
 fn not_a_scene(path: &Path) -> Option<String> {
     let extension = path.extension()?.to_str()?.to_lowercase();
     match extension.as_str() {
-        "obj" => Some(
-            "an OBJ file is a mesh: name it in a scene file by `kind = \"mesh\"` and `file`".into(),
-        ),
         "rad" | "xml" => Some(format!(
             "scenes from .{extension} files are not supported yet"
         )),
@@ -152,11 +150,11 @@ pub fn read_scene_str(
     }
     let directory = Path::new(name).parent().unwrap_or(Path::new(""));
     let context = Context::new(Arc::clone(&source), directory, files);
-    let description = sections::read(root.get_ref(), &context);
-    let map = SourceMap::new(root.get_ref());
+    let sections = sections::read(root.get_ref(), &context);
+    let map = SourceMap::new(root.get_ref(), &sections);
     let hash = context.finish()?;
     Ok(LoadedScene {
-        description,
+        description: sections.description,
         hash,
         source,
         map,

@@ -1,6 +1,7 @@
 //! The sections of a scene file, each handed to its reader.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use steradian::quantity::LuminousEfficacy;
 use steradian::scene::description::SceneDescription;
@@ -14,20 +15,42 @@ use super::node::{Node, in_file_order};
 use super::tables::{SCENE, SECTIONS};
 use super::{light, material, sensor, shape};
 
+/// What the sections say, and where its parts come from.
+pub(super) struct Sections {
+    pub description: SceneDescription,
+    /// For each shape, which entry of `[[shapes]]` it is of.
+    pub shape_entries: Vec<usize>,
+    /// Where the scene names the files that the last materials are from.
+    pub material_files: Vec<Range<usize>>,
+}
+
 /// Reads all sections, reporting what is wrong with them.
-pub(super) fn read(root: &DeTable<'_>, context: &Context<'_>) -> SceneDescription {
+pub(super) fn read(root: &DeTable<'_>, context: &Context<'_>) -> Sections {
     check_sections(root, context);
     let mut description = SceneDescription::default();
     if let Some(scene) = root.get("scene") {
         read_header(Node::new(scene, context), &mut description);
     }
     description.materials = named(root, "materials", context, material::read);
-    description.shapes = listed(root, "shapes", context, shape::read);
+    let shapes = listed(root, "shapes", context, shape::read);
     description.lights = listed(root, "lights", context, light::read);
     description.sensors = listed(root, "sensors", context, sensor::read);
     check_names(root, "shapes", context);
     check_names(root, "sensors", context);
-    description
+    let (materials, material_files) = context.take_materials();
+    description.materials.extend(materials);
+    description.warnings = context.take_warnings();
+    let numbered = shapes.iter().enumerate();
+    Sections {
+        shape_entries: numbered
+            .flat_map(|(entry, shapes)| vec![entry; shapes.len()])
+            .collect(),
+        description: SceneDescription {
+            shapes: shapes.into_iter().flatten().collect(),
+            ..description
+        },
+        material_files,
+    }
 }
 
 /// Reports sections that are unknown or not yet read.

@@ -11,14 +11,15 @@ use steradian::scene::description::{
 
 use super::fields::Fields;
 use super::keys::Value;
+use super::mesh::{self, Surface};
 use super::node::Node;
+use super::placement;
 use super::tables::{EMISSION, FACE_NAMES, FACES, OPENING, PORT, SHAPES};
 use super::up::UpAxis;
 use super::value::{Read, Towards, choice};
-use super::{mesh, placement};
 
-/// Reads one shape.
-pub(super) fn read(node: Node<'_>) -> Option<ShapeDescription> {
+/// Reads one entry: one shape, or for a mesh file one a material.
+pub(super) fn read(node: Node<'_>) -> Option<Vec<ShapeDescription>> {
     let (kind, fields) = node.kind(&SHAPES)?;
     // The ground is level in the description, whatever axis points up in the file.
     let first = if kind == "ground" {
@@ -26,19 +27,23 @@ pub(super) fn read(node: Node<'_>) -> Option<ShapeDescription> {
     } else {
         Transform::IDENTITY
     };
-    let geometry = geometry(kind, &fields);
+    let surfaces = match kind {
+        "mesh" => mesh::read(&fields),
+        _ => geometry(kind, &fields).map(|geometry| vec![Surface::plain(geometry)]),
+    };
     let transform = placement::transform(&fields, first);
     let (material, emission) = (fields.get("material"), fields.get("emission"));
-    let (name, repeat) = (fields.get("name"), placement::repeat(&fields));
-    let (geometry, transform) = (geometry?, transform?);
-    Some(ShapeDescription {
-        name,
-        geometry,
-        material,
+    let (name, repeat) = (fields.get::<String>("name"), placement::repeat(&fields));
+    let (surfaces, transform) = (surfaces?, transform?);
+    let shape = |surface: Surface| ShapeDescription {
+        name: surface.named(name.as_deref()),
+        geometry: surface.geometry,
+        material: material.clone().or(surface.material),
         transform,
-        repeat,
-        emission,
-    })
+        repeat: repeat.clone(),
+        emission: emission.clone().or(surface.emission),
+    };
+    Some(surfaces.into_iter().map(shape).collect())
 }
 
 /// Reads the geometry of a shape of this kind.
@@ -49,7 +54,6 @@ pub(super) fn geometry(kind: &str, fields: &Fields<'_>) -> Option<GeometryDescri
         "disc" => disc(fields),
         "sphere" => sphere(fields),
         "box" => cuboid(fields),
-        "mesh" => mesh::read(fields).map(GeometryDescription::Mesh),
         _ => length(fields, "height").map(|height| GeometryDescription::Ground { height }),
     }
 }

@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::node::in_file_order;
+use super::sections::Sections;
 
 /// The spans of all entries and their keys.
 #[derive(Clone, Debug, Default)]
@@ -26,11 +27,17 @@ struct Entry {
 }
 
 impl SourceMap {
-    pub fn new(root: &DeTable<'_>) -> Self {
+    pub fn new(root: &DeTable<'_>, sections: &Sections) -> Self {
+        let shapes = listed(root, "shapes");
+        let shape = |entry: &usize| shapes.get(*entry).cloned();
+        let of_files = sections.material_files.iter().cloned().map(Entry::plain);
         Self {
             scene: root.get("scene").map(Entry::new),
-            materials: named(root, "materials"),
-            shapes: listed(root, "shapes"),
+            materials: named(root, "materials")
+                .into_iter()
+                .chain(of_files)
+                .collect(),
+            shapes: sections.shape_entries.iter().filter_map(shape).collect(),
             lights: listed(root, "lights"),
             sensors: listed(root, "sensors"),
         }
@@ -63,6 +70,14 @@ impl Entry {
         Self {
             span: table.span(),
             values,
+        }
+    }
+
+    /// A place without keys.
+    fn plain(span: Range<usize>) -> Self {
+        Self {
+            span,
+            values: vec![],
         }
     }
 

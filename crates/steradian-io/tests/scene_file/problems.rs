@@ -500,19 +500,22 @@ fn files_that_cannot_be_read() {
     );
     one_problem(
         "parts/triangle.obj",
-        "part.stl",
-        "\"part.stl\"",
-        "expected an OBJ file",
+        "part.3ds",
+        "\"part.3ds\"",
+        "expected a mesh file (.obj, .ply or .stl), found \"part.3ds\"",
     );
 }
 
 #[test]
 fn scenes_that_cannot_be_read() {
-    let files = MemoryFiles::default().with("bytes.toml", [0xff, 0xfe]);
+    let files = MemoryFiles::default()
+        .with("bytes.toml", [0xff, 0xfe])
+        .with("room.ply", "");
     for (name, says) in [
         ("none.toml", "cannot read the scene file: no such file"),
         ("bytes.toml", "not UTF-8"),
-        ("room.obj", "an OBJ file is a mesh"),
+        ("room.obj", "cannot read room.obj: no such file"),
+        ("room.ply", "not a PLY file"),
         ("room.glb", "cannot read room.glb: no such file"),
     ] {
         let found = read_scene(Path::new(name), &files).unwrap_err();

@@ -43,7 +43,6 @@
 mod accessors;
 mod cameras;
 mod container;
-mod defaults;
 mod document;
 mod error;
 mod extensions;

@@ -21,7 +21,8 @@ use super::notes::Notes;
 use super::schema::{Node, Primitive};
 use super::textures::Textures;
 use super::uri::Resources;
-use super::{cameras, defaults, extensions, lights, primitives};
+use super::{cameras, extensions, lights, primitives};
+use crate::import::defaults;
 
 /// More triangles than this are refused.
 const MOST_TRIANGLES: usize = 1 << 27;
@@ -271,7 +272,7 @@ impl Builder<'_> {
         }
         if description.sensors.is_empty() {
             notes.tell("the file has no camera: shown by one that has everything in its picture");
-            let camera = defaults::camera(&description)?;
+            let camera = defaults::camera(&description).ok_or(GltfError::Empty)?;
             description.sensors.push(camera);
         }
         description.warnings = notes.into_warnings();

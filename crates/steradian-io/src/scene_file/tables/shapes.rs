@@ -82,7 +82,7 @@ const MESH: &[Key] = &[
         "triangles",
         "file",
         Value::File,
-        "An OBJ file, relative to the scene file",
+        "An OBJ, PLY or STL file, relative to the scene file; its materials are used where `material` is absent",
     ),
     Key::one_of(
         "triangles",
@@ -134,7 +134,11 @@ pub const SHAPES: Family = Family {
     ],
     common: &[
         Key::optional("name", Value::Text, "What sensors call it"),
-        Key::optional("material", MATERIAL, "Its material; black unless given"),
+        Key::optional(
+            "material",
+            MATERIAL,
+            "Its material; that of the mesh file if absent, and black where there is none",
+        ),
         TRANSFORM_KEY,
         REPEAT_KEY,
         Key::optional(
