@@ -1,5 +1,6 @@
 //! Readers of other programs' files.
 
+mod alpha;
 mod defaults;
 pub mod gltf;
 pub mod image;
@@ -17,6 +18,7 @@ use std::path::Path;
 use thiserror::Error;
 
 use crate::files::Files;
+pub use alpha::as_opacity;
 pub use mesh_file::{MeshFile, MeshMaterial, MeshPart};
 pub use scene::{ImportError, is_scene, scene};
 

@@ -168,7 +168,11 @@ mod tests {
     fn huge_polygons_are_cut_if_convex_and_refused_if_not() {
         let corners = MOST_CORNERS as u32 + 2;
         let comb = |x: u32, depth: f64| {
-            Point::new(f64::from(x), if x % 2 == 0 { 0.0 } else { depth }, 0.0)
+            Point::new(
+                f64::from(x),
+                if x.is_multiple_of(2) { 0.0 } else { depth },
+                0.0,
+            )
         };
         let polygon = |depth| {
             let teeth = (0..corners).map(|x| comb(x, depth));

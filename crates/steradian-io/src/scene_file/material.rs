@@ -1,6 +1,6 @@
 //! `[materials.NAME]`: what surfaces are made of.
 
-use steradian::scene::description::{LaneValues, MaterialDescription, MaterialModel};
+use steradian::scene::description::{MaterialDescription, MaterialModel};
 
 use super::fields::Fields;
 use super::node::Node;
@@ -9,13 +9,18 @@ use super::tables::MATERIALS;
 /// Reads the material called `name`.
 pub(super) fn read(name: &str, node: Node<'_>) -> Option<MaterialDescription> {
     let (kind, fields) = node.kind(&MATERIALS)?;
-    Some(MaterialDescription::new(name, model(kind, &fields)?))
+    let (model, opacity) = (model(kind, &fields), fields.get("opacity"));
+    Some(MaterialDescription {
+        name: name.to_owned(),
+        model: model?,
+        opacity,
+    })
 }
 
 fn model(kind: &str, fields: &Fields<'_>) -> Option<MaterialModel> {
     match kind {
         "lambertian" => Some(MaterialModel::Lambertian {
-            reflectance: fields.get::<LaneValues>("reflectance")?.into(),
+            reflectance: fields.get("reflectance")?,
         }),
         "mirror" => Some(MaterialModel::Mirror {
             reflectance: fields.get("reflectance")?,

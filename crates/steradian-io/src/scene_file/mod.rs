@@ -41,6 +41,7 @@ mod sensor;
 mod shape;
 mod source_map;
 mod tables;
+mod texture;
 mod up;
 mod value;
 

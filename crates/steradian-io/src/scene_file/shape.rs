@@ -15,6 +15,7 @@ use super::mesh::{self, Surface};
 use super::node::Node;
 use super::placement;
 use super::tables::{EMISSION, FACE_NAMES, FACES, OPENING, PORT, SHAPES};
+use super::texture::EmissionPattern;
 use super::up::UpAxis;
 use super::value::{Read, Towards, choice};
 
@@ -202,10 +203,11 @@ impl Read for EmissionDescription {
         let fields = node.record(&EMISSION)?;
         let (amount, two_sided) = (amount(&fields), fields.get("two_sided"));
         let (spectrum, group) = (fields.get("spectrum"), fields.get("group"));
+        let texture = fields.get::<EmissionPattern>("texture");
         Some(Self {
             amount: amount?,
             spectrum,
-            textures: vec![],
+            textures: texture.map(|pattern| pattern.0).into_iter().collect(),
             two_sided: two_sided?,
             group,
         })

@@ -6,6 +6,7 @@ mod mutations;
 mod problems;
 mod reading;
 mod scenes;
+mod textures;
 mod validation;
 
 use steradian::scene::description::SceneDescription;
@@ -16,9 +17,13 @@ use steradian_io::scene_file::{LoadedScene, read_scene_str};
 /// A triangle of sides along x and y, of 1 000 units.
 const TRIANGLE: &str = "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nf 1 2 3\n";
 
+/// A picture of one texel, (128 + ½)/256 in all channels.
+const HALF: &[u8] = b"#?RADIANCE\n\n-Y 1 +X 1\n\x80\x80\x80\x80";
+
 fn files() -> MemoryFiles {
     MemoryFiles::default()
         .with("parts/triangle.obj", TRIANGLE)
+        .with("parts/half.hdr", HALF)
         .with("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n")
 }
 

@@ -24,7 +24,9 @@
 //! ```
 
 mod assembly;
+mod entry;
 mod lines;
+mod maps;
 pub mod mtl;
 
 use std::collections::HashMap;

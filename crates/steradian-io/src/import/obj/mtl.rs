@@ -14,13 +14,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use steradian::quantity::{Amount, Radiance};
-use steradian::scene::description::{
-    EmissionAmount, EmissionDescription, LaneValues, MaterialDescription, MaterialModel, Opacity,
-    Varying,
-};
-
+use super::entry::Entry;
 use super::lines::{logical_lines, numbers, statement};
+use super::maps::{Map, Pictures};
 use super::{ObjError, ObjFault};
 use crate::files::{Files, reason};
 use crate::import::mesh_file::MeshMaterial;
@@ -60,7 +56,8 @@ pub(super) fn read_all(
         let path = directory.join(name.replace('\\', "/"));
         match files.read(&path) {
             Ok(bytes) => {
-                let library = read(&bytes).map_err(|error| ObjError {
+                let directory = path.parent().unwrap_or(directory);
+                let library = read(&bytes, directory, files).map_err(|error| ObjError {
                     library: Some(name.clone()),
                     ..error
                 })?;
@@ -76,11 +73,11 @@ pub(super) fn read_all(
     Ok(all)
 }
 
-/// Reads a material library.
+/// Reads a material library, whose textures are relative to `directory`. One that cannot be read is told in the warnings.
 ///
 /// # Errors
 /// The first line that cannot be read.
-pub fn read(bytes: &[u8]) -> Result<Library, ObjError> {
+pub fn read(bytes: &[u8], directory: &Path, files: &dyn Files) -> Result<Library, ObjError> {
     let mut reader = Reader::default();
     for (line, text) in logical_lines(bytes) {
         reader.line(&text).map_err(|fault| ObjError {
@@ -89,7 +86,7 @@ pub fn read(bytes: &[u8]) -> Result<Library, ObjError> {
             fault,
         })?;
     }
-    Ok(reader.finish())
+    Ok(reader.finish(Pictures::new(directory, files)))
 }
 
 #[derive(Default)]
@@ -99,16 +96,9 @@ struct Reader {
     left_out: BTreeMap<&'static str, Vec<String>>,
 }
 
-/// A material as the file states it.
-struct Entry {
-    name: String,
-    reflectance: [f64; 3],
-    opacity: f64,
-    emission: [f64; 3],
-}
-
 const COLOUR: &str = "a colour of one or three numbers, 0 or more";
 const RATIO: &str = "a number from 0 to 1";
+const FILE: &str = "options and the name of a picture";
 
 impl Reader {
     fn line(&mut self, text: &str) -> Result<(), ObjFault> {
@@ -127,43 +117,38 @@ impl Reader {
             expected,
             found: text.chars().take(60).collect(),
         };
-        let left_out = match word {
-            "Kd" => {
-                entry.reflectance = colour(rest).ok_or_else(|| wrong(COLOUR))?;
-                None
+        let colour = || colour(rest).ok_or_else(|| wrong(COLOUR));
+        let ratio = |text| ratio(text).ok_or_else(|| wrong(RATIO));
+        let map = || Map::parse(rest).ok_or_else(|| wrong(FILE));
+        match word {
+            "Kd" => entry.reflectance = colour()?,
+            "Ke" => entry.emission = Some(colour()?),
+            "d" => entry.opacity = ratio(rest.trim_start_matches("-halo"))?,
+            "Tr" => entry.opacity = 1.0 - ratio(rest)?,
+            "map_Kd" => entry.reflectance_map = Some(map()?),
+            "map_d" => entry.opacity_map = Some(map()?),
+            "map_Ke" => entry.emission_map = Some(map()?),
+            "Ks" if colour()? != [0.0; 3] => self.leave_out(GLOSS),
+            "illum" if numbers(rest).is_some_and(|numbers| numbers.first() >= Some(&3.0)) => {
+                self.leave_out(REFLECTION)
             }
-            "Ke" => {
-                entry.emission = colour(rest).ok_or_else(|| wrong(COLOUR))?;
-                None
-            }
-            "d" => {
-                entry.opacity =
-                    ratio(rest.trim_start_matches("-halo")).ok_or_else(|| wrong(RATIO))?;
-                None
-            }
-            "Tr" => {
-                entry.opacity = 1.0 - ratio(rest).ok_or_else(|| wrong(RATIO))?;
-                None
-            }
-            "Ks" => colour(rest)
-                .is_some_and(|colour| colour != [0.0; 3])
-                .then_some(GLOSS),
-            "illum" => numbers(rest)
-                .is_some_and(|numbers| numbers.first() >= Some(&3.0))
-                .then_some(REFLECTION),
-            _ => Some(MAPS),
-        };
-        let name = entry.name.clone();
-        if let Some(what) = left_out {
-            let names = self.left_out.entry(what).or_default();
-            if names.last() != Some(&name) {
-                names.push(name);
-            }
+            _ => (),
         }
         Ok(())
     }
 
-    fn finish(mut self) -> Library {
+    /// Remembers that the present material has something that is left out.
+    fn leave_out(&mut self, what: &'static str) {
+        let Some(entry) = self.entries.last() else {
+            return;
+        };
+        let names = self.left_out.entry(what).or_default();
+        if names.last() != Some(&entry.name) {
+            names.push(entry.name.clone());
+        }
+    }
+
+    fn finish(mut self, mut pictures: Pictures<'_>) -> Library {
         let mut materials = Vec::new();
         for entry in self.entries {
             if entry.reflectance.iter().any(|part| *part > 1.0) {
@@ -172,15 +157,17 @@ impl Reader {
                     .or_default()
                     .push(entry.name.clone());
             }
-            materials.push(entry.material());
+            materials.push(entry.material(&mut pictures));
         }
-        let warnings = self
+        let mut warnings: Vec<String> = self
             .left_out
             .iter()
-            .map(|(what, names)| format!("{what}: {}", listed(names)));
+            .map(|(what, names)| format!("{what}: {}", listed(names)))
+            .collect();
+        warnings.append(&mut pictures.warnings);
         Library {
-            warnings: warnings.collect(),
             materials,
+            warnings,
         }
     }
 }
@@ -191,63 +178,7 @@ const KNOWN: [&str; 9] = [
 ];
 const GLOSS: &str = "gloss (Ks) is left out, the reflection is diffuse";
 const REFLECTION: &str = "mirror reflection and refraction (illum 3 and more) are left out";
-const MAPS: &str = "textures are left out";
 const ABOVE_ONE: &str = "a reflectance (Kd) above 1 is taken as 1";
-
-impl Entry {
-    fn new(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            reflectance: [0.8; 3],
-            opacity: 1.0,
-            emission: [0.0; 3],
-        }
-    }
-
-    fn material(self) -> MeshMaterial {
-        let reflectance = Varying::from(lanes(self.reflectance.map(|part| part.min(1.0))));
-        let opacity = Opacity {
-            factor: self.opacity,
-            textures: vec![],
-            cutoff: None,
-        };
-        MeshMaterial {
-            material: MaterialDescription {
-                name: self.name,
-                model: MaterialModel::Lambertian { reflectance },
-                opacity: (self.opacity < 1.0).then_some(opacity),
-            },
-            emission: emission(self.emission),
-        }
-    }
-}
-
-/// Light of this radiance, with the colour as its spectrum; `None` for none.
-fn emission(radiance: [f64; 3]) -> Option<EmissionDescription> {
-    // Luminance weights of Rec.709: a spectrum of this colour and this amount has these very lanes.
-    let [red, green, blue] = radiance;
-    let weighted = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-    let is_grey = red == green && green == blue;
-    let amount = if is_grey { red } else { weighted };
-    (amount > 0.0).then(|| EmissionDescription {
-        amount: EmissionAmount::Radiance(Amount::Radiant(
-            Radiance::from_watts_per_square_metre_steradian(amount),
-        )),
-        spectrum: (!is_grey).then_some(LaneValues::Rgb(radiance)),
-        textures: vec![],
-        two_sided: false,
-        group: None,
-    })
-}
-
-/// Grey means the same in every kind of spectrum.
-fn lanes(rgb: [f64; 3]) -> LaneValues {
-    if rgb == [rgb[0]; 3] {
-        LaneValues::Uniform(rgb[0])
-    } else {
-        LaneValues::Rgb(rgb)
-    }
-}
 
 fn colour(text: &str) -> Option<[f64; 3]> {
     let colour = match numbers(text)?[..] {

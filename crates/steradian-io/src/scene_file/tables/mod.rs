@@ -6,6 +6,7 @@
 mod lights;
 mod sensors;
 mod shapes;
+mod textures;
 
 use steradian::quantity::LuminousEfficacy;
 use steradian::scene::description::Response;
@@ -18,6 +19,11 @@ pub use lights::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
 pub use sensors::{GRID, PROJECTION_NAMES, SENSORS};
 pub use shapes::{
     EMISSION, FACE_NAMES, FACES, OPENING, PORT, REPEAT, SCALE, SHAPES, SURFACES, TRANSFORM_STEP,
+};
+
+pub use textures::{
+    CHECKERBOARD, EMISSION_CHECKERBOARD, EMISSION_PATTERN, EMISSION_TEXTURE, EMISSION_VERTEX_COLOR,
+    OPACITY, OPACITY_TEXTURE, TEXTURE, VARYING, VERTEX_COLOR,
 };
 
 const MATERIAL: Value = Value::Name("material");
@@ -105,14 +111,18 @@ pub const MATERIALS: Family = Family {
     noun: "material",
     tag: "model",
     untagged: Some("two-sided"),
-    common: &[],
+    common: &[Key::optional(
+        "opacity",
+        OPACITY,
+        "Part of the light that the surface stops, 0 to 1; the rest passes straight through",
+    )],
     kinds: &[
         Kind::new(
             "lambertian",
             "Reflects the same radiance in all directions",
             &[Key::required(
                 "reflectance",
-                Value::Lanes,
+                VARYING,
                 "Part of the arriving flux that is reflected, 0 to 1",
             )],
         ),

@@ -4,7 +4,7 @@ use steradian::quantity::{
     Amount, Angle, Exitance, Flux, Length, Luminance, LuminousExitance, LuminousFlux, Radiance,
 };
 
-use super::{EDGES, MATERIAL, POINTS};
+use super::{EDGES, EMISSION_PATTERN, MATERIAL, POINTS};
 use crate::scene_file::keys::{Family, Key, Kind, Record, Value};
 use crate::scene_file::up::UpAxis;
 use crate::scene_file::value::Read;
@@ -279,6 +279,11 @@ pub const EMISSION: Record = Record {
             "spectrum",
             Value::Lanes,
             "Shape of the spectrum; white unless given",
+        ),
+        Key::optional(
+            "texture",
+            EMISSION_PATTERN,
+            "How it varies over the surface: the amount is multiplied by it, or where it is a flux, by its ratio to its mean",
         ),
         Key::default("two_sided", Value::Flag, "false", "Whether both sides emit"),
         Key::optional(
