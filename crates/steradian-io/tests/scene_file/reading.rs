@@ -356,6 +356,7 @@ fn every_projection_has_its_name() {
             panic!("no camera")
         };
         assert_eq!(camera.projection, expected);
+        assert_eq!(camera.projection.name(), name);
     }
     let scene = describe(&camera_scene("projection = \"panorama\""));
     assert!(

@@ -11,9 +11,11 @@ mod materials;
 mod problem;
 mod receivers;
 mod sensors;
+mod unseen;
 
 use problem::Fault;
 pub use problem::{Part, Place, Problem};
+pub use unseen::Unseen;
 
 use crate::geometry::Point;
 use crate::light::{Kind, Light, LightId};
@@ -22,7 +24,7 @@ use crate::quantity::LuminousEfficacy;
 use crate::sensor::Sensor;
 use crate::shape::{ShapeId, Surfaces};
 use crate::spectrum::Lanes;
-use description::{SceneDescription, SpectrumMode};
+use description::{MaterialDescription, MaterialModel, SceneDescription, SpectrumMode};
 
 /// What one part of a shape is made of.
 #[derive(Copy, Clone, Debug, PartialEq)]
@@ -49,6 +51,8 @@ pub struct Scene {
     lights: Vec<Light>,
     sensors: Vec<Sensor>,
     warnings: Vec<String>,
+    /// No material lets light pass.
+    is_opaque: bool,
 }
 
 impl Scene {
@@ -98,6 +102,7 @@ impl Scene {
             lights: lights.lights,
             sensors,
             warnings: description.warnings.clone(),
+            is_opaque: description.materials.iter().all(stops_light),
             lanes,
         })
     }
@@ -187,6 +192,16 @@ impl Scene {
             _ => None,
         })
     }
+}
+
+/// Whether no light passes a surface of this material.
+fn stops_light(material: &MaterialDescription) -> bool {
+    material.opacity.is_none()
+        && match material.model {
+            MaterialModel::Lambertian { .. }
+            | MaterialModel::Mirror { .. }
+            | MaterialModel::TwoSided { .. } => true,
+        }
 }
 
 fn lanes(description: &SceneDescription, problems: &mut Vec<Problem>) -> Option<Lanes> {

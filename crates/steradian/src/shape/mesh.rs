@@ -1,9 +1,8 @@
 //! A triangle mesh: area ½ Σ |(b − a) × (c − a)|.
 
-use std::collections::HashMap;
-
 use crate::geometry::{Direction, Point};
 
+use super::health::at_same_place;
 use super::{AreaSample, Parallelogram};
 
 /// Triangles with the cumulative area that uniform sampling needs.
@@ -95,7 +94,7 @@ impl TriangleMesh {
     /// True when every edge is shared by just two triangles that run along it in opposite ways. Vertices at the same
     /// place count as one, and triangles that this makes a line do not count.
     pub fn is_closed(&self) -> bool {
-        let merged = self.merged_vertices();
+        let merged = at_same_place(&self.vertices);
         let triangles = self
             .triangles
             .iter()
@@ -108,16 +107,6 @@ impl TriangleMesh {
         edges.sort_unstable();
         let mut shared = edges.chunk_by(|one, other| (one.0, one.1) == (other.0, other.1));
         !edges.is_empty() && shared.all(|runs| matches!(runs, [one, other] if one.2 != other.2))
-    }
-
-    /// For each vertex the number of the first one at the same place.
-    fn merged_vertices(&self) -> Vec<u32> {
-        let mut first = HashMap::new();
-        let place = |vertex: &Point| vertex.to_array().map(|x| (x + 0.0).to_bits());
-        let numbered = self.vertices.iter().zip(0..);
-        numbered
-            .map(|(vertex, index)| *first.entry(place(vertex)).or_insert(index))
-            .collect()
     }
 }
 

@@ -10,7 +10,9 @@
 //! | p(x) = 1/A | density of uniform area sampling | 1/m² |
 
 mod disc;
+mod enclosure;
 mod form;
+pub mod health;
 mod mesh;
 mod parallelogram;
 pub mod quadrature;
@@ -19,6 +21,7 @@ mod sphere;
 mod surfaces;
 
 pub use disc::Disc;
+pub use enclosure::{Enclosure, Side};
 pub use form::{AreaSample, Form};
 pub use mesh::TriangleMesh;
 pub use parallelogram::Parallelogram;

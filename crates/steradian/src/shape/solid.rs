@@ -58,7 +58,7 @@ impl<'a> Solid<'a> {
 }
 
 /// Corners of the octahedron around the ball of this radius.
-fn octahedron(radius: f64) -> [Vector; 6] {
+pub(super) fn octahedron(radius: f64) -> [Vector; 6] {
     let reach = radius * 3.0_f64.sqrt();
     let axes = [
         Vector::new(reach, 0.0, 0.0),
@@ -70,7 +70,7 @@ fn octahedron(radius: f64) -> [Vector; 6] {
 }
 
 /// w(x).
-fn winding_number(mesh: &TriangleMesh, point: Point) -> f64 {
+pub(super) fn winding_number(mesh: &TriangleMesh, point: Point) -> f64 {
     let solid_angles = (0..mesh.triangles.len()).map(|index| {
         let [a, b, c] = mesh.corners(index).map(|corner| corner - point);
         let (la, lb, lc) = (a.length(), b.length(), c.length());

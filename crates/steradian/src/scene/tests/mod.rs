@@ -3,6 +3,7 @@
 mod building;
 mod problems;
 mod units;
+mod unseen;
 
 use std::sync::Arc;
 

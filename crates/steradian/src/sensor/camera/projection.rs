@@ -82,6 +82,21 @@ pub enum Fisheye {
 }
 
 impl Projection {
+    /// What it is called in scene files.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Perspective { .. } => "perspective",
+            Self::ThinLens { .. } => "thin-lens",
+            Self::Orthographic { .. } => "orthographic",
+            Self::Panorama => "panorama",
+            Self::Fisheye { mapping, .. } => match mapping {
+                Fisheye::Equidistant => "fisheye-equidistant",
+                Fisheye::Equisolid => "fisheye-equisolid",
+                Fisheye::Hemispherical => "fisheye-hemispherical",
+            },
+        }
+    }
+
     /// Start and direction (not normalised) of the ray of a place on the plane, in the camera's frame.
     pub(super) fn ray(&self, [a, b]: [f64; 2], lens: [f64; 2]) -> Option<(Vector, Vector)> {
         let none = Vector::new(0.0, 0.0, 0.0);

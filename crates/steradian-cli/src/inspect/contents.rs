@@ -1,0 +1,314 @@
+//! The lists of what a scene holds.
+
+use steradian::geometry::Bounds;
+use steradian::light::{Kind as LightKind, Light};
+use steradian::material::MaterialId;
+use steradian::quantity::{Area, Flux};
+use steradian::scene::{PartProperties, Scene};
+use steradian::sensor::{Kind as SensorKind, Sensor, SitsOn};
+use steradian::shape::{Form, Placed, ShapeId};
+use steradian_io::report::columns::Columns;
+use steradian_io::report::numbers::{exact, significant};
+
+/// Digits of what is printed for orientation.
+const DIGITS: i32 = 6;
+
+/// Bounds and area of all finite shapes, in a line.
+pub fn extent(scene: &Scene) -> String {
+    let Some(bounds) = scene.surfaces().bounds() else {
+        return String::new();
+    };
+    format!(
+        "bounds {}; area {} m2\n",
+        corners(&bounds),
+        significant(total_area(scene), DIGITS)
+    )
+}
+
+/// Area of all finite shapes in m².
+pub fn total_area(scene: &Scene) -> f64 {
+    let areas = scene
+        .surfaces()
+        .shapes()
+        .iter()
+        .map(|placed| placed.form.area());
+    areas.filter(|area| area.is_finite()).sum()
+}
+
+fn corners(bounds: &Bounds) -> String {
+    let corner = |point: [f64; 3]| point.map(|x| significant(x, DIGITS)).join(", ");
+    let (min, max) = (bounds.min().to_array(), bounds.max().to_array());
+    format!("({}) to ({}) m", corner(min), corner(max))
+}
+
+/// One row a shape.
+pub fn shapes(scene: &Scene) -> Columns {
+    let headings = [
+        "shape",
+        "kind",
+        "triangles",
+        "area (m2)",
+        "front",
+        "back",
+        "emits",
+    ];
+    let mut columns = Columns::new(headings);
+    for (placed, number) in scene.surfaces().shapes().iter().zip(0..) {
+        let [front, back] = sides(scene, placed).map(|names| names.join(", "));
+        columns.row([
+            scene.shape_name(ShapeId(number)).to_owned(),
+            placed.form.kind().to_owned(),
+            triangles(&placed.form).map_or_else(String::new, |count| count.to_string()),
+            area(&placed.form),
+            front,
+            back,
+            emits(scene, placed).unwrap_or_default().to_owned(),
+        ]);
+    }
+    columns
+}
+
+/// The number of triangles of a form that is made of them.
+pub fn triangles(form: &Form) -> Option<usize> {
+    match form {
+        Form::Mesh(mesh) => Some(mesh.triangles.len()),
+        _ => None,
+    }
+}
+
+/// Names of the materials of the front and of the back.
+pub fn sides(scene: &Scene, placed: &Placed) -> [Vec<String>; 2] {
+    let of = |side: fn(&PartProperties) -> MaterialId| {
+        distinct(parts(scene, placed).map(|part| side(&part)), |id| {
+            material_name(scene, id)
+        })
+    };
+    [of(|part| part.front), of(|part| part.back)]
+}
+
+/// The light that a shape is.
+pub fn emits<'a>(scene: &'a Scene, placed: &Placed) -> Option<&'a str> {
+    let light = parts(scene, placed).find_map(|part| part.light)?;
+    Some(&scene.lights()[light.0 as usize].name)
+}
+
+fn parts<'a>(scene: &'a Scene, placed: &'a Placed) -> impl Iterator<Item = PartProperties> + 'a {
+    placed
+        .parts
+        .iter()
+        .map(|part| scene.parts()[part.0 as usize])
+}
+
+fn material_name(scene: &Scene, id: MaterialId) -> String {
+    if id == MaterialId::BLACK {
+        "(none)".to_owned()
+    } else {
+        scene.materials()[id.0 as usize].0.clone()
+    }
+}
+
+fn area(form: &Form) -> String {
+    if form.area().is_finite() {
+        significant(form.area(), DIGITS)
+    } else {
+        "infinite".to_owned()
+    }
+}
+
+/// The names of different things in order of appearance.
+fn distinct<T: PartialEq + Copy>(
+    things: impl Iterator<Item = T>,
+    name: impl Fn(T) -> String,
+) -> Vec<String> {
+    let mut seen: Vec<T> = Vec::new();
+    for thing in things {
+        if seen.last() != Some(&thing) && !seen.contains(&thing) {
+            seen.push(thing);
+        }
+    }
+    seen.into_iter().map(name).collect()
+}
+
+/// One row a material that is used or named.
+pub fn materials(scene: &Scene) -> Columns {
+    let heading = format!("reflectance ({})", scene.lanes().names().join(", "));
+    let mut columns = Columns::new(["material".to_owned(), heading]);
+    for material in listed_materials(scene) {
+        let kind = if material.is_mirror { " (mirror)" } else { "" };
+        let values = material.reflectance.iter();
+        let values: Vec<String> = values
+            .map(|value| significant(f64::from(*value), DIGITS))
+            .collect();
+        columns.row([material.name, format!("{}{kind}", values.join(", "))]);
+    }
+    columns
+}
+
+/// A material of the lists.
+pub struct ListedMaterial {
+    /// Its name.
+    pub name: String,
+    /// Of each lane.
+    pub reflectance: Vec<f32>,
+    /// Whether it is a mirror.
+    pub is_mirror: bool,
+}
+
+/// All materials but that of shapes without one, unless there are such.
+pub fn listed_materials(scene: &Scene) -> Vec<ListedMaterial> {
+    let used = |id: MaterialId| {
+        let mut parts = scene.parts().iter();
+        parts.any(|part| part.front == id || part.back == id)
+    };
+    let ids = (0..).map(MaterialId).zip(scene.materials());
+    let listed = ids.filter(|(id, _)| *id != MaterialId::BLACK || used(*id));
+    let lanes = scene.lanes().count();
+    let material = |(id, (_, material)): (MaterialId, &(String, steradian::material::Material))| {
+        ListedMaterial {
+            name: material_name(scene, id),
+            reflectance: material.reflectance().to_lanes()[..lanes].to_vec(),
+            is_mirror: material.is_specular(),
+        }
+    };
+    listed.map(material).collect()
+}
+
+/// One row a light.
+pub fn lights(scene: &Scene) -> Columns {
+    let mut columns = Columns::new(["light", "group", "kind", "power"]);
+    for light in scene.lights() {
+        let group = scene.groups()[light.group as usize].clone();
+        let values = power(scene, light);
+        let values = values
+            .iter()
+            .map(|(value, unit)| format!("{} {unit}", significant(*value, DIGITS)));
+        let values: Vec<String> = values.collect();
+        columns.row([
+            light.name.clone(),
+            group,
+            light_kind(light).to_owned(),
+            values.join(" = "),
+        ]);
+    }
+    columns
+}
+
+/// What a light is called in scene files.
+pub fn light_kind(light: &Light) -> &'static str {
+    match light.kind {
+        LightKind::Point(_) => "point",
+        LightKind::Spot(_) => "spot",
+        LightKind::Directional { .. } => "directional",
+        LightKind::Environment { .. } => "environment",
+        LightKind::Area(_) => "area",
+    }
+}
+
+/// The flux of a light in the units that the sensors use; for light from infinitely far away, what arrives instead.
+pub fn power(scene: &Scene, light: &Light) -> Vec<(f64, &'static str)> {
+    let watts = |flux: [Flux; 4]| flux.map(Flux::to_watts);
+    let (lanes, units) = match &light.kind {
+        LightKind::Point(point) => (watts(point.flux()), ["W", "lm"]),
+        LightKind::Spot(spot) => (watts(spot.flux()), ["W", "lm"]),
+        LightKind::Directional { irradiance, .. } => {
+            let lanes = irradiance.map(|lane| lane.to_watts_per_square_metre());
+            (lanes, ["W/m2", "lx"])
+        }
+        LightKind::Environment { radiance } => {
+            let lanes = radiance.map(|lane| lane.to_watts_per_square_metre_steradian());
+            (lanes, ["W/(m2 sr)", "cd/m2"])
+        }
+        LightKind::Area(area) => {
+            let surface = scene.surfaces().shape(area.shape).form.area();
+            let flux = area.flux(Area::from_square_metres(surface));
+            (watts(flux), ["W", "lm"])
+        }
+    };
+    amount(scene, lanes, units)
+}
+
+/// A light's lanes in the units that the sensors use.
+fn amount(
+    scene: &Scene,
+    lanes: [f64; 4],
+    [radiant, photometric]: [&'static str; 2],
+) -> Vec<(f64, &'static str)> {
+    let weighted = |weights: Vec<f64>| {
+        let terms = weights
+            .iter()
+            .zip(lanes)
+            .map(|(weight, lane)| weight * lane);
+        terms.sum::<f64>()
+    };
+    let uses = |wanted: bool| {
+        let mut readouts = scene.sensors().iter().flat_map(|sensor| &sensor.readouts);
+        readouts.any(|readout| readout.photometric == wanted)
+    };
+    let watts = uses(false).then(|| (weighted(scene.lanes().radiant_weights()), radiant));
+    let efficacy = scene.luminous_efficacy().to_lumens_per_watt();
+    let light = scene.lanes().light_weights().filter(|_| uses(true));
+    let lumens = light.map(|weights| (efficacy * weighted(weights), photometric));
+    watts.into_iter().chain(lumens).collect()
+}
+
+/// One row a sensor.
+pub fn sensors(scene: &Scene) -> Columns {
+    let mut columns = Columns::new(["sensor", "reads", "at", "on"]);
+    for sensor in scene.sensors() {
+        let quantities = sensor.readouts.iter();
+        let quantities: Vec<String> = quantities
+            .map(|readout| format!("{} ({})", readout.name, readout.unit))
+            .collect();
+        let on: Vec<String> = sits_on(sensor)
+            .into_iter()
+            .map(|(on, points)| format!("{} ({}, {})", on.shape, on.side, plural(points, "point")))
+            .collect();
+        columns.row([
+            sensor.name.clone(),
+            quantities.join(", "),
+            place(sensor),
+            on.join(", "),
+        ]);
+    }
+    columns
+}
+
+/// The sides of surfaces that a sensor's points lie on, and how many lie on each.
+pub fn sits_on(sensor: &Sensor) -> Vec<(SitsOn, usize)> {
+    let SensorKind::Irradiance(receivers) = &sensor.kind else {
+        return Vec::new();
+    };
+    let mut sides: Vec<(SitsOn, usize)> = Vec::new();
+    for on in receivers
+        .iter()
+        .filter_map(|receiver| receiver.sits_on.as_ref())
+    {
+        match sides.iter_mut().find(|(side, _)| side == on) {
+            Some((_, count)) => *count += 1,
+            None => sides.push((on.clone(), 1)),
+        }
+    }
+    sides
+}
+
+fn place(sensor: &Sensor) -> String {
+    match &sensor.kind {
+        SensorKind::Irradiance(points) => plural(points.len(), "point"),
+        SensorKind::ScalarIrradiance(points) => plural(points.len(), "point"),
+        SensorKind::Radiance(rays) => plural(rays.len(), "ray"),
+        SensorKind::Flux { area, .. } => format!("{} m2", exact(*area)),
+        SensorKind::Camera(camera) => {
+            let [width, height] = camera.resolution;
+            let projection = camera.projection().name();
+            format!("{width} x {height} pixels, {projection}")
+        }
+    }
+}
+
+fn plural(count: usize, noun: &str) -> String {
+    if count == 1 {
+        format!("1 {noun}")
+    } else {
+        format!("{count} {noun}s")
+    }
+}
