@@ -34,7 +34,7 @@ pub enum Command {
     Render(render::Arguments),
     /// Read the sensors of a scene: irradiance, flux, radiance, with error bars
     Measure(measure::Arguments),
-    /// List what a scene holds: areas, reflectances, the flux of its lights, sensors
+    /// List what a scene or mesh holds: areas, reflectances, fluxes, sensors; and what is wrong with it: leaks, doubled faces …
     Inspect(inspect::Arguments),
     /// Check this program on scenes with closed-form answers
     Verify(verify::Arguments),

@@ -15,6 +15,7 @@ use steradian::transport::unsampled;
 use crate::load::Loaded;
 use crate::status::{Failure, Outcome};
 use crate::{load, output};
+use contents::plural;
 use findings::Finding;
 use triangles::Triangles;
 
@@ -139,8 +140,9 @@ impl<'a> Inspection<'a> {
         }
         let sheets = match self.sheet_edges {
             0 => String::new(),
-            edges => format!(", sheets with {edges} free edges"),
+            edges => format!("; sheets have {} free", plural(edges, "edge")),
         };
-        format!("{count} triangles in {pieces} pieces{sheets}\n")
+        let (count, pieces) = (plural(count, "triangle"), plural(pieces as usize, "piece"));
+        format!("{count} in {pieces}{sheets}\n")
     }
 }

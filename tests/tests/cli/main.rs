@@ -3,6 +3,7 @@
 
 mod errors;
 mod help;
+mod inspect;
 mod instruments;
 mod interruption;
 mod pictures;

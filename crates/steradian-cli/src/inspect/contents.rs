@@ -305,7 +305,8 @@ fn place(sensor: &Sensor) -> String {
     }
 }
 
-fn plural(count: usize, noun: &str) -> String {
+/// A number and what it counts.
+pub fn plural(count: usize, noun: &str) -> String {
     if count == 1 {
         format!("1 {noun}")
     } else {

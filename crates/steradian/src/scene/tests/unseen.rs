@@ -53,10 +53,7 @@ fn unseen(description: &SceneDescription) -> Vec<(String, Side)> {
 fn a_sun_outside_a_closed_room_is_unseen() {
     let mut scene = room();
     scene.lights = vec![lamp(), sun()];
-    assert_eq!(
-        unseen(&scene),
-        [("light 1".to_owned(), Side::Outside)]
-    );
+    assert_eq!(unseen(&scene), [("light 1".to_owned(), Side::Outside)]);
     scene.sensors[0] = irradiance("floor", [0.5, 0.5, 0.0]);
     assert_eq!(unseen(&scene).len(), 1, "a meter on the wall of the room");
 }

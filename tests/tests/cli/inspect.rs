@@ -1,0 +1,156 @@
+//! What `inspect` tells of scenes and meshes.
+
+use serde_json::Value;
+use steradian_tests::command::{Folder, steradian};
+
+/// The unit cube with its faces in `kept`, as OBJ with a vertex for each corner.
+fn cube(kept: usize) -> String {
+    let corners = (0..8).map(|i| format!("v {} {} {}\n", i & 1, i >> 1 & 1, i >> 2));
+    let faces = [
+        "f 1 3 4 2\n",
+        "f 5 6 8 7\n",
+        "f 1 2 6 5\n",
+        "f 3 7 8 4\n",
+        "f 1 5 7 3\n",
+        "f 2 4 8 6\n",
+    ];
+    corners.collect::<String>() + &faces[..kept].concat()
+}
+
+fn json(path: &str) -> Value {
+    let text = steradian(&["inspect", path, "--format", "json"]).fine();
+    serde_json::from_str(&text).unwrap()
+}
+
+/// Kind and count of each finding.
+fn findings(object: &Value) -> Vec<(&str, u64)> {
+    let findings = object["findings"].as_array().unwrap().iter();
+    let found = findings.map(|one| {
+        (
+            one["kind"].as_str().unwrap(),
+            one["count"].as_u64().unwrap(),
+        )
+    });
+    found.collect()
+}
+
+#[test]
+fn a_closed_mesh_is_sound() {
+    let folder = Folder::new();
+    let file = folder.write("cube.obj", &cube(6));
+    let object = json(&file);
+    assert_eq!(object["schema"], "steradian.inspect/1");
+    assert_eq!(object["triangles"], 12);
+    assert_eq!(object["pieces"], 1);
+    assert_eq!(object["area"], 6.0);
+    assert_eq!(findings(&object), []);
+    steradian(&["inspect", &file, "--strict"]).fine();
+}
+
+/// The face x = 1 is missing.
+#[test]
+fn a_hole_is_told_with_its_place() {
+    let folder = Folder::new();
+    let file = folder.write("cube.obj", &cube(5));
+    let object = json(&file);
+    assert_eq!(findings(&object), [("boundary-edge", 4)]);
+    let examples = object["findings"][0]["examples"].as_array().unwrap();
+    assert_eq!(examples.len(), 4);
+    for example in examples {
+        for point in example["points"].as_array().unwrap() {
+            assert_eq!(point[0], 1.0, "{example}");
+        }
+    }
+    let text = steradian(&["inspect", &file]).fine();
+    assert!(text.contains("Found: 4 boundary edges"), "{text}");
+    assert!(text.contains("… and 1 more"), "{text}");
+    assert_eq!(steradian(&["inspect", &file, "--strict"]).status(), 1);
+}
+
+#[test]
+fn faults_of_faces_are_told() {
+    let folder = Folder::new();
+    let twice = folder.write("twice.obj", &(cube(6) + "f 1 3 4\n"));
+    assert_eq!(findings(&json(&twice)), [("doubled-face", 1)]);
+    let turned = cube(6).replace("f 2 4 8 6", "f 6 8 4 2");
+    let turned = folder.write("turned.obj", &turned);
+    assert_eq!(findings(&json(&turned)), [("turned-edge", 4)]);
+}
+
+/// The same cube with the face x = 1 a hair away closes within a tolerance.
+#[test]
+fn welding_is_asked_for() {
+    let folder = Folder::new();
+    let apart = "v 1.00001 0 0\nv 1.00001 1 0\nv 1.00001 1 1\nv 1.00001 0 1\nf 9 10 11 12\n";
+    let file = folder.write("cube.obj", &(cube(5) + apart));
+    let strict = |more: &[&str]| {
+        let arguments = [&["inspect", &file, "--strict"], more].concat();
+        steradian(&arguments).status()
+    };
+    assert_eq!(strict(&[]), 1);
+    assert_eq!(strict(&["--weld", "0.1mm"]), 0);
+    assert_eq!(strict(&["--weld", "1 um"]), 1);
+}
+
+const OUTSIDE: &str = r#"
+[materials.wall]
+model = "lambertian"
+reflectance = 0.5
+
+[[shapes]]
+name = "room"
+kind = "box"
+min = [0, 0, 0]
+max = [4, 3, 2.5]
+inside = true
+material = "wall"
+
+[[lights]]
+name = "bulb"
+kind = "point"
+position = [2, 1, 2]
+flux = "800 lm"
+
+[[lights]]
+name = "sun"
+kind = "directional"
+direction = [0, 1, -1]
+irradiance = "50 klx"
+
+[[sensors]]
+name = "desk"
+kind = "illuminance"
+points = [[2, 1, 0, 0, 0, 1], [3, 1, 0, 0, 0, 1]]
+"#;
+
+#[test]
+fn lights_and_sensors_are_told_with_their_place() {
+    let folder = Folder::new();
+    let object = json(&folder.write("room.toml", OUTSIDE));
+    assert_eq!(findings(&object), [("unseen-light", 1)]);
+    let example = &object["findings"][0]["examples"][0];
+    assert_eq!(
+        (&example["name"], &example["remark"]),
+        (&"sun".into(), &"outside room".into())
+    );
+    assert_eq!(object["lights"][0]["power"][0]["unit"], "lm");
+    let flux = object["lights"][0]["power"][0]["value"].as_f64().unwrap();
+    assert!((flux - 800.0).abs() < 1e-9);
+    let on = &object["sensors"][0]["sits_on"][0];
+    assert_eq!(
+        (&on["shape"], &on["side"], &on["points"]),
+        (&"room".into(), &"front".into(), &2.into())
+    );
+    assert_eq!(object["bounds"]["max"][2], 2.5);
+}
+
+/// The open front of the Cornell box; the lamp is a sheet, and no finding.
+#[test]
+fn rectangles_that_meet_are_one_surface() {
+    let object = json("scenes/cornell-box.toml");
+    assert_eq!(findings(&object), [("boundary-edge", 4)]);
+    assert_eq!(
+        (&object["pieces"], &object["sheet_edges"]),
+        (&4.into(), &4.into())
+    );
+}
