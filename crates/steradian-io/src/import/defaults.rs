@@ -5,15 +5,19 @@
 use std::f64::consts::PI;
 
 use steradian::geometry::{Bounds, Direction, Point, Vector};
-use steradian::quantity::{Amount, Angle, Luminance};
+use steradian::quantity::{Amount, Angle, Illuminance, Luminance};
 use steradian::scene::description::{
     CameraDescription, GeometryDescription, LaneValues, LightDescription, LightKind,
     MaterialDescription, MaterialModel, Projection, SceneDescription, SensorDescription,
     SensorKind, ShapeDescription,
 };
 
-/// Illuminance of every surface that sees nothing but the sky, in lx.
-const ILLUMINANCE: f64 = 1000.0;
+/// Illuminance of every surface that sees nothing but the environment, in lx.
+const SKY: f64 = 500.0;
+/// Illuminance of every surface that faces the parallel light, in lx.
+const SUN: f64 = 1000.0;
+/// The way of the parallel light: backwards and down, from above the left shoulder of the default camera.
+const SUN_DIRECTION: Vector = Vector::new(0.5, 0.6, -1.2);
 /// Full horizontal angle of view of the default camera, in degrees.
 const FIELD_OF_VIEW: f64 = 45.0;
 /// Its picture, in pixels.
@@ -25,8 +29,8 @@ const MARGIN: f64 = 1.05;
 /// Reflectance of the default material.
 const GREY: f64 = 0.5;
 
-/// Adds what is missing: a grey material for shapes without one, a camera if there is none, and a constant
-/// environment if nothing emits.
+/// Adds what is missing: a grey material for shapes without one, a camera if there is none, and light
+/// if nothing emits.
 pub fn complete(description: &mut SceneDescription) {
     add_material(description);
     add_camera(description);
@@ -64,9 +68,11 @@ fn unused_name(name: &str, materials: &[MaterialDescription]) -> String {
 fn add_light(description: &mut SceneDescription) {
     let emits = |shape: &ShapeDescription| shape.emission.is_some();
     if description.lights.is_empty() && !description.shapes.iter().any(emits) {
-        let warning = "the file has no light: lit by a constant environment of 1000 lx";
-        description.warnings.push(warning.into());
-        description.lights.push(environment());
+        let warning = format!(
+            "the file has no light: lit by a sky of {SKY} lx and parallel light of {SUN} lx"
+        );
+        description.warnings.push(warning);
+        description.lights.extend(lights());
     }
 }
 
@@ -78,22 +84,28 @@ fn add_camera(description: &mut SceneDescription) {
     }
 }
 
-/// An environment of constant luminance L = E/π.
-pub(super) fn environment() -> LightDescription {
-    let luminance = Luminance::from_candelas_per_square_metre(ILLUMINANCE / PI);
-    LightDescription {
-        name: Some("environment".into()),
+/// A constant environment, L = E/π, and parallel light: in an environment alone, a white surface is as bright as what is
+/// behind it and cannot be seen.
+fn lights() -> [LightDescription; 2] {
+    let luminance = Luminance::from_candelas_per_square_metre(SKY / PI);
+    let sky = LightKind::Environment {
+        radiance: Amount::Photometric(luminance),
+    };
+    let sun = LightKind::Directional {
+        direction: SUN_DIRECTION,
+        irradiance: Amount::Photometric(Illuminance::from_lux(SUN)),
+    };
+    [("sky", sky), ("sun", sun)].map(|(name, kind)| LightDescription {
+        name: Some(name.into()),
         group: None,
         spectrum: None,
         repeat: None,
-        kind: LightKind::Environment {
-            radiance: Amount::Photometric(luminance),
-        },
-    }
+        kind,
+    })
 }
 
 /// A camera to the front right of all meshes and above them, that has all of them in its picture; `None` if there are none.
-pub(super) fn camera(description: &SceneDescription) -> Option<SensorDescription> {
+fn camera(description: &SceneDescription) -> Option<SensorDescription> {
     let bounds = bounds(description);
     let middle = bounds.center()?;
     let towards = Direction::new(TOWARDS_CAMERA).ok()?;

@@ -128,8 +128,10 @@ fn a_spot_falls_off_between_its_angles() {
 }
 
 #[test]
-fn a_file_without_light_gets_a_sky_of_1000_lx() {
-    assert_close(illuminance(lit_by(json!([]), json!([]))), 1000.0);
+fn a_file_without_light_gets_a_sky_and_a_sun() {
+    let cos = 1.2 / (0.25 + 0.36 + 1.44_f64).sqrt();
+    let expected = 500.0 + 1000.0 * cos;
+    assert_close(illuminance(lit_by(json!([]), json!([]))), expected);
 }
 
 /// A square of 250 (r, g, b) = (1, 0.5, 0.25) in nits.

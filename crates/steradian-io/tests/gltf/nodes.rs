@@ -1,4 +1,5 @@
 use serde_json::{Value, json};
+use steradian::geometry::{Point, Vector};
 use steradian::quantity::Length;
 use steradian::scene::description::{Projection, SensorKind};
 
@@ -179,10 +180,35 @@ fn an_orthographic_camera_shows_twice_its_magnification() {
 }
 
 #[test]
+fn the_camera_of_a_file_without_one_has_everything_in_its_picture() {
+    for scale in [[1.0, 1.0, 1.0], [100.0, 0.01, 1.0], [0.001, 7.0, 1.0]] {
+        let (entries, buffer) = squares(json!([{ "mesh": 0, "scale": scale }, { "mesh": 0 }]));
+        let scene = scene(entries, &buffer);
+        let SensorKind::Camera(camera) = &scene.sensors[0].kind else {
+            panic!("{:?}", scene.sensors[0]);
+        };
+        let ahead = camera.look_at - camera.position;
+        let right = ahead.cross(camera.up);
+        let up = right.cross(ahead);
+        let share = |point: Point, across: Vector| {
+            let seen = point - camera.position;
+            (seen.dot(across) / across.length()).abs() / (seen.dot(ahead) / ahead.length())
+        };
+        let corners = scene.shapes.iter().flat_map(triangles).flatten();
+        let most = corners.fold([0.0, 0.0], |[x, y]: [f64; 2], corner| {
+            [x.max(share(corner, right)), y.max(share(corner, up))]
+        });
+        // The tangents of half the angles of view, and none too small.
+        let filled = (most[0] / 0.414_22).max(most[1] / 0.310_67);
+        assert!(filled < 1.0 && filled > 0.8, "{scale:?}: {most:?}");
+    }
+}
+
+#[test]
 fn a_file_without_camera_and_light_is_shown_nevertheless() {
     let (entries, buffer) = squares(json!([{ "mesh": 0 }]));
     let scene = scene(entries, &buffer);
-    assert_eq!((scene.sensors.len(), scene.lights.len()), (1, 1));
+    assert_eq!((scene.sensors.len(), scene.lights.len()), (1, 2));
     let told = |text: &str| scene.warnings.iter().any(|warning| warning.contains(text));
-    assert!(told("no camera") && told("environment of 1000 lx") && told("z points up"));
+    assert!(told("no camera") && told("sky of 500 lx") && told("z points up"));
 }

@@ -11,9 +11,9 @@
 //! | `KHR_lights_punctual` | point lights and spots in cd, directional lights in lx |
 //! | cameras | sensors |
 //!
-//! A file without a camera gets one that shows everything, and one without light an environment of
-//! 1000 lx. Animations and skins are not read: what they move is where it is at rest. All that is approximated, added or
-//! left out is told in the description's `warnings`.
+//! A file without a camera gets one that shows everything, and one without light a sky of 500 lx
+//! and parallel light of 1000 lx. Animations and skins are not read: what they move is where it is at rest. All that is
+//! approximated, added or left out is told in the description's `warnings`.
 //!
 //! The JSON is read by our own types, for numbers in f64 and extensions alike; every index, size and number is checked,
 //! so that a damaged file is refused with the place that is wrong.

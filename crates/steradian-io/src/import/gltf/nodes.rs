@@ -3,21 +3,17 @@
 //! x′ = T R S x, or a matrix; a child's is applied before its parent's. glTF's y axis points up: the point (x, y, z) of
 //! the file is the point (x, −z, y) of the description.
 
-use steradian::geometry::{Direction, Transform, Vector};
+use steradian::geometry::{Transform, Vector};
 
 use super::document::part;
 use super::error::GltfError;
 use super::schema::{Node, Root};
+use crate::import::scene::y_to_z_up;
 
 /// A node with the transform from its own coordinates to those of the description.
 pub(super) struct Placed {
     pub node: usize,
     pub transform: Transform,
-}
-
-/// The turn that points y up.
-pub(super) fn y_up() -> Transform {
-    Transform::from_axes([Direction::X, Direction::Z, -Direction::Y].map(Vector::from))
 }
 
 /// The nodes of the file's scene, parents before children, in the order of the file.
@@ -27,7 +23,7 @@ pub(super) fn placed(root: &Root) -> Result<Vec<Placed>, GltfError> {
     let (place, tops) = tops(root)?;
     let mut waiting: Vec<(usize, Transform, String)> = Vec::new();
     for &node in tops.iter().rev() {
-        waiting.push((node, y_up(), place.clone()));
+        waiting.push((node, y_to_z_up(), place.clone()));
     }
     while let Some((index, parent, place)) = waiting.pop() {
         let node = part(&root.nodes, index, "node", place)?;

@@ -23,6 +23,7 @@ use super::textures::Textures;
 use super::uri::Resources;
 use super::{cameras, extensions, lights, primitives};
 use crate::import::defaults;
+use crate::import::scene::y_to_z_up;
 
 /// More triangles than this are refused.
 const MOST_TRIANGLES: usize = 1 << 27;
@@ -129,7 +130,7 @@ impl Builder<'_> {
         if node.skin.is_some() {
             let text = "skins are not read: what they move is shown as it was modelled";
             self.notes.count("nodes", text, place);
-            return Ok(vec![nodes::y_up()]);
+            return Ok(vec![y_to_z_up()]);
         }
         let Some(instancing) = &node.extensions.instancing else {
             return Ok(vec![placed.transform]);
@@ -256,7 +257,7 @@ impl Builder<'_> {
     /// Adds what a scene needs to be seen.
     fn finish(self) -> Result<SceneDescription, GltfError> {
         let Self {
-            mut notes,
+            notes,
             mut description,
             materials,
             ..
@@ -265,17 +266,8 @@ impl Builder<'_> {
             return Err(GltfError::Empty);
         }
         description.materials = materials.described;
-        let emits = |shape: &ShapeDescription| shape.emission.is_some();
-        if description.lights.is_empty() && !description.shapes.iter().any(emits) {
-            notes.tell("the file has no light: lit by a constant environment of 1000 lx");
-            description.lights.push(defaults::environment());
-        }
-        if description.sensors.is_empty() {
-            notes.tell("the file has no camera: shown by one that has everything in its picture");
-            let camera = defaults::camera(&description).ok_or(GltfError::Empty)?;
-            description.sensors.push(camera);
-        }
         description.warnings = notes.into_warnings();
+        defaults::complete(&mut description);
         Ok(description)
     }
 }
