@@ -1,0 +1,183 @@
+//! Readers fed with any bytes: each must end soon, in little memory, with a result or an error, and keep its promises.
+//!
+//! One function a target. `crates/steradian-io/tests/fuzz_inputs.rs` runs them too, on the seeds and on everything that
+//! once made one of them fail.
+
+use std::path::Path;
+
+use steradian::measurement::Measurements;
+use steradian::scene::description::{GeometryDescription, MeshData, SceneDescription};
+use steradian::spectrum::Beyond;
+use steradian::transport::Picture;
+use steradian_io::diagnostic::render;
+use steradian_io::files::MemoryFiles;
+use steradian_io::import::image::Encoding;
+use steradian_io::import::{MeshFile, gltf, image, obj, ply, points, spectrum, stl};
+use steradian_io::report::Shard;
+use steradian_io::scene_file::read_scene_str;
+
+/// A target and what it does with bytes.
+pub type Target = (&'static str, fn(&[u8]));
+
+/// Every target.
+pub const TARGETS: [Target; 11] = [
+    ("scene_file", scene_file),
+    ("obj", obj),
+    ("mtl", mtl),
+    ("ply", ply),
+    ("stl", stl),
+    ("gltf", gltf),
+    ("glb", glb),
+    ("image", image),
+    ("spectrum_csv", spectrum_csv),
+    ("points", points),
+    ("shard", shard),
+];
+
+/// A picture of one texel.
+const PICTURE: &[u8] = b"#?RADIANCE\n\n-Y 1 +X 1\n\x80\x80\x80\x81";
+
+/// Scene files: read, or every problem shown.
+pub fn scene_file(bytes: &[u8]) {
+    let Ok(text) = str::from_utf8(bytes) else {
+        return;
+    };
+    let files = MemoryFiles::default()
+        .with(
+            "a.obj",
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n",
+        )
+        .with("a.hdr", PICTURE);
+    match read_scene_str("scene.toml", text, &files) {
+        Ok(scene) => assert_meshes_are_sound(&scene.description),
+        Err(problems) => assert!(!render(&problems, false).is_empty()),
+    }
+}
+
+/// OBJ files.
+pub fn obj(bytes: &[u8]) {
+    let files = MemoryFiles::default().with("a.mtl", "newmtl a\nKd 1 0 0\nKe 1 2 3\n");
+    if let Ok(file) = obj::read(bytes, Path::new(""), &files) {
+        assert_is_sound(&file);
+    }
+}
+
+/// Material libraries of OBJ files.
+pub fn mtl(bytes: &[u8]) {
+    let files = MemoryFiles::default().with("a.hdr", PICTURE);
+    let _ = obj::mtl::read(bytes, Path::new(""), &files);
+}
+
+/// PLY files.
+pub fn ply(bytes: &[u8]) {
+    if let Ok(file) = ply::read(bytes) {
+        assert_is_sound(&file);
+    }
+}
+
+/// STL files.
+pub fn stl(bytes: &[u8]) {
+    if let Ok(file) = stl::read(bytes) {
+        assert_is_sound(&file);
+    }
+}
+
+/// glTF scenes in text.
+pub fn gltf(bytes: &[u8]) {
+    read_gltf("a.gltf", bytes);
+}
+
+/// glTF scenes in binary.
+pub fn glb(bytes: &[u8]) {
+    read_gltf("a.glb", bytes);
+}
+
+fn read_gltf(name: &str, bytes: &[u8]) {
+    let files = MemoryFiles::default().with(name, bytes);
+    if let Ok(scene) = gltf::read(Path::new(name), &files) {
+        assert_meshes_are_sound(&scene.description);
+    }
+}
+
+/// Pictures of every format.
+pub fn image(bytes: &[u8]) {
+    for encoding in [Encoding::Srgb, Encoding::Linear] {
+        if let Ok(picture) = image::read(bytes, encoding) {
+            assert!(
+                picture
+                    .at([0.3, 0.7])
+                    .iter()
+                    .all(|channel| channel.is_finite())
+            );
+        }
+    }
+}
+
+/// Spectra in CSV files.
+pub fn spectrum_csv(bytes: &[u8]) {
+    for column in [None, Some("white")] {
+        if let Ok(curve) = spectrum::read(bytes, column, Beyond::Held) {
+            assert!(curve.at(550.0).is_finite());
+        }
+    }
+}
+
+/// Tables of points with normals.
+pub fn points(bytes: &[u8]) {
+    let files = MemoryFiles::default().with("a.csv", bytes);
+    match points::read_points(Path::new("a.csv"), &files) {
+        Ok(points) => assert!(!points.is_empty()),
+        Err(problems) => assert!(!render(&problems, false).is_empty()),
+    }
+}
+
+/// Parts of runs: as they are, and with a right checksum, so that what it protects is read too.
+pub fn shard(bytes: &[u8]) {
+    read_shard(bytes);
+    for header in [&b""[..], b"\x02\0\0\0\0\0\0\0{}"] {
+        let mut sealed = [b"STERADIAN SHARD 1\n", header, bytes].concat();
+        let hash = blake3::hash(&sealed);
+        sealed.extend(hash.as_bytes());
+        read_shard(&sealed);
+    }
+}
+
+fn read_shard(bytes: &[u8]) {
+    if let Ok(shard) = Shard::decode(bytes) {
+        let _ = shard.content::<Measurements>();
+        let _ = shard.content::<Picture>();
+    }
+}
+
+fn assert_is_sound(file: &MeshFile) {
+    for part in &file.parts {
+        assert_mesh_is_sound(&part.mesh);
+        assert!(
+            part.material
+                .is_none_or(|material| material < file.materials.len())
+        );
+    }
+}
+
+fn assert_meshes_are_sound(description: &SceneDescription) {
+    for shape in &description.shapes {
+        match &shape.geometry {
+            // What a scene file states itself is for the scene to check.
+            GeometryDescription::Mesh(mesh) if !mesh.texture_coordinates.is_empty() => {
+                assert_mesh_is_sound(mesh)
+            }
+            _ => (),
+        }
+    }
+}
+
+/// All numbers are finite, and all indices in range.
+fn assert_mesh_is_sound(mesh: &MeshData) {
+    let count = mesh.vertices.len();
+    let mut corners = mesh.triangles.iter().flatten();
+    assert!(corners.all(|corner| (*corner as usize) < count));
+    assert!(mesh.vertices.iter().all(|vertex| vertex.is_finite()));
+    for attributes in [mesh.texture_coordinates.len(), mesh.colors.len()] {
+        assert!(attributes == 0 || attributes == count);
+    }
+}
