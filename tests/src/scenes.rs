@@ -54,6 +54,12 @@ pub fn lambertian(name: &str, reflectance: f64) -> MaterialDescription {
     MaterialDescription::new(name, MaterialModel::Lambertian { reflectance })
 }
 
+/// A diffuse material of a colour.
+pub fn coloured(name: &str, reflectance: LaneValues) -> MaterialDescription {
+    let reflectance = reflectance.into();
+    MaterialDescription::new(name, MaterialModel::Lambertian { reflectance })
+}
+
 /// A mirror.
 pub fn mirror(name: &str, reflectance: f64) -> MaterialDescription {
     let reflectance = LaneValues::Uniform(reflectance);
@@ -353,6 +359,7 @@ pub fn sensor(name: &str, kind: SensorKind) -> SensorDescription {
     SensorDescription {
         name: name.into(),
         response: None,
+        bins: None,
         kind,
     }
 }

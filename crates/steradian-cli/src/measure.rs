@@ -159,6 +159,7 @@ fn add_points(arguments: &Arguments, description: &mut SceneDescription) -> Resu
     description.sensors.push(SensorDescription {
         name: points::SENSOR.to_owned(),
         response: None,
+        bins: None,
         kind,
     });
     Ok(())

@@ -8,4 +8,6 @@ mod lamps;
 mod mirrors;
 mod reflection;
 mod reproducible;
+mod spectral;
 mod spectrum;
+mod textures;

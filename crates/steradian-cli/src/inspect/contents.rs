@@ -2,7 +2,7 @@
 
 use steradian::geometry::Bounds;
 use steradian::light::{Kind as LightKind, Light};
-use steradian::material::MaterialId;
+use steradian::material::{Material, MaterialId, Opacity, Tint};
 use steradian::quantity::{Area, Flux};
 use steradian::scene::{PartProperties, Scene};
 use steradian::sensor::{Kind as SensorKind, Sensor, SitsOn};
@@ -131,15 +131,24 @@ fn distinct<T: PartialEq + Copy>(
 
 /// One row a material that is used or named.
 pub fn materials(scene: &Scene) -> Columns {
-    let heading = format!("reflectance ({})", scene.lanes().names().join(", "));
-    let mut columns = Columns::new(["material".to_owned(), heading]);
+    let heading = match scene.lanes().is_spectral() {
+        true => "reflectance".to_owned(),
+        false => format!("reflectance ({})", scene.lanes().names().join(", ")),
+    };
+    let mut columns = Columns::new(["material".to_owned(), heading, "lets pass".to_owned()]);
     for material in listed_materials(scene) {
         let kind = if material.is_mirror { " (mirror)" } else { "" };
         let values = material.reflectance.iter();
         let values: Vec<String> = values
             .map(|value| significant(f64::from(*value), DIGITS))
             .collect();
-        columns.row([material.name, format!("{}{kind}", values.join(", "))]);
+        let varies = material.varies.map(|how| format!(" x {how}"));
+        let reflectance = format!("{}{}{kind}", values.join(", "), varies.unwrap_or_default());
+        columns.row([
+            material.name,
+            reflectance,
+            material.lets_pass.unwrap_or_default(),
+        ]);
     }
     columns
 }
@@ -148,8 +157,12 @@ pub fn materials(scene: &Scene) -> Columns {
 pub struct ListedMaterial {
     /// Its name.
     pub name: String,
-    /// Of each lane.
+    /// Of each lane, or of all wavelengths; a factor of what varies.
     pub reflectance: Vec<f32>,
+    /// What the reflectance is multiplied with.
+    pub varies: Option<String>,
+    /// What part of the light passes undeviated, if any.
+    pub lets_pass: Option<String>,
     /// Whether it is a mirror.
     pub is_mirror: bool,
 }
@@ -162,15 +175,43 @@ pub fn listed_materials(scene: &Scene) -> Vec<ListedMaterial> {
     };
     let ids = (0..).map(MaterialId).zip(scene.materials());
     let listed = ids.filter(|(id, _)| *id != MaterialId::BLACK || used(*id));
-    let lanes = scene.lanes().count();
-    let material = |(id, (_, material)): (MaterialId, &(String, steradian::material::Material))| {
+    let lanes = match scene.lanes().is_spectral() {
+        true => 1,
+        false => scene.lanes().count(),
+    };
+    let material = |(id, (_, material)): (MaterialId, &(String, Material))| {
+        let tint = material.reflectance();
         ListedMaterial {
             name: material_name(scene, id),
-            reflectance: material.reflectance().to_lanes()[..lanes].to_vec(),
+            reflectance: tint.map_or([0.0; 4], |tint| tint.hue.lanes)[..lanes].to_vec(),
+            varies: tint.and_then(|tint| varies(scene, tint)),
+            lets_pass: material.opacity.as_ref().map(lets_pass),
             is_mirror: material.is_specular(),
         }
     };
     listed.map(material).collect()
+}
+
+/// What a tint varies with.
+fn varies(scene: &Scene, tint: &Tint) -> Option<String> {
+    let curve = tint.hue.curve.map(|id| {
+        let curve = scene.curve(id);
+        let [low, high] = [curve.min(), curve.max()].map(|value| significant(value, DIGITS));
+        format!("{low} to {high} by wavelength")
+    });
+    let textures = match tint.textures.len() {
+        0 => None,
+        count => Some(plural(count, "texture")),
+    };
+    let parts: Vec<String> = curve.into_iter().chain(textures).collect();
+    (!parts.is_empty()).then(|| parts.join(" x "))
+}
+
+fn lets_pass(opacity: &Opacity) -> String {
+    match opacity.textures.len() {
+        0 => significant(1.0 - f64::from(opacity.factor), DIGITS),
+        count => plural(count, "texture"),
+    }
 }
 
 /// One row a light.
@@ -221,23 +262,27 @@ pub fn power(scene: &Scene, light: &Light) -> Vec<(f64, &'static str)> {
         LightKind::Area(area) => {
             let surface = scene.surfaces().shape(area.shape).form.area();
             let flux = area.flux(Area::from_square_metres(surface));
-            (watts(flux), ["W", "lm"])
+            let units = match area.textures.is_empty() {
+                true => ["W", "lm"],
+                false => ["W were its texture 1", "lm were its texture 1"],
+            };
+            (watts(flux), units)
         }
     };
-    amount(scene, lanes, units)
+    amount(scene, &scene.channels(light, lanes), units)
 }
 
-/// A light's lanes in the units that the sensors use.
+/// A light's channels in the units that the sensors use.
 fn amount(
     scene: &Scene,
-    lanes: [f64; 4],
+    channels: &[f64],
     [radiant, photometric]: [&'static str; 2],
 ) -> Vec<(f64, &'static str)> {
     let weighted = |weights: Vec<f64>| {
         let terms = weights
             .iter()
-            .zip(lanes)
-            .map(|(weight, lane)| weight * lane);
+            .zip(channels)
+            .map(|(weight, channel)| weight * channel);
         terms.sum::<f64>()
     };
     let uses = |wanted: bool| {
@@ -245,9 +290,14 @@ fn amount(
         readouts.any(|readout| readout.photometric == wanted)
     };
     let watts = uses(false).then(|| (weighted(scene.lanes().radiant_weights()), radiant));
+    let lanes = scene.lanes();
     let efficacy = scene.luminous_efficacy().to_lumens_per_watt();
-    let light = scene.lanes().light_weights().filter(|_| uses(true));
-    let lumens = light.map(|weights| (efficacy * weighted(weights), photometric));
+    let seen = match lanes.channel("photopic").filter(|_| lanes.is_spectral()) {
+        Some(channel) => Some((lanes.only(Some(channel)), 1.0)),
+        None => lanes.light_weights().map(|weights| (weights, efficacy)),
+    };
+    let seen = seen.filter(|_| uses(true));
+    let lumens = seen.map(|(weights, efficacy)| (efficacy * weighted(weights), photometric));
     watts.into_iter().chain(lumens).collect()
 }
 

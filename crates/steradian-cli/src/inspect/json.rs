@@ -70,6 +70,8 @@ fn materials(scene: &Scene) -> Vec<Value> {
         json!({
             "name": material.name,
             "reflectance": material.reflectance,
+            "varies": material.varies,
+            "lets_pass": material.lets_pass,
             "mirror": material.is_mirror,
         })
     };

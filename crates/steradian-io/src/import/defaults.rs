@@ -121,6 +121,7 @@ fn camera(description: &SceneDescription) -> Option<SensorDescription> {
     Some(SensorDescription {
         name: "camera".into(),
         response: None,
+        bins: None,
         kind: SensorKind::Camera(camera),
     })
 }

@@ -41,6 +41,7 @@ pub(super) fn read(node: Node<'_>) -> Option<SensorDescription> {
     Some(SensorDescription {
         name: name?,
         response,
+        bins: None,
         kind: kind?,
     })
 }

@@ -36,6 +36,7 @@ fn reading(mut scene: SceneDescription, kind: SensorKind) -> (f64, String) {
     scene.sensors = vec![SensorDescription {
         name,
         response,
+        bins: None,
         kind,
     }];
     let scene = Scene::new(&scene).unwrap_or_else(|problems| panic!("{problems:?}"));

@@ -400,7 +400,7 @@ fn receivers_of_irradiance() {
         let SensorKind::Irradiance(receivers) = &sensor.kind else {
             panic!("{sensor:?}")
         };
-        (sensor.response, receivers)
+        (sensor.response.clone(), receivers)
     };
     let (response, Receivers::Points(points)) = receivers("points") else {
         panic!()

@@ -329,7 +329,7 @@ fn sensors_have_the_defaults_of_the_help() {
         panic!()
     };
     assert_eq!(
-        (side, of, sensors[1].response),
+        (side, of, sensors[1].response.clone()),
         (Side::Front, FluxOf::Incident, None)
     );
 }

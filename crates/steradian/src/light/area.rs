@@ -15,6 +15,7 @@ use std::f64::consts::TAU;
 
 use super::{Density, Incident};
 use crate::geometry::{Direction, Frame, Point};
+use crate::material::Texture;
 use crate::quantity::{Area, Exitance, Flux, Radiance, SolidAngle};
 use crate::shape::{Form, ShapeId, Sphere};
 use crate::spectrum::MAX_LANES;
@@ -24,8 +25,10 @@ use crate::spectrum::MAX_LANES;
 pub struct AreaLight {
     /// The shape.
     pub shape: ShapeId,
-    /// L of each lane.
+    /// L of each lane, where all textures are 1.
     pub radiance: [Radiance; MAX_LANES],
+    /// How L varies over the shape: factors.
+    pub textures: Vec<Texture>,
     /// Both sides emit.
     pub two_sided: bool,
 }

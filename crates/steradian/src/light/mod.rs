@@ -18,9 +18,9 @@ pub use point::PointLight;
 pub use spot::{Beam, SpotLight};
 
 use crate::geometry::{Direction, Point};
-use crate::quantity::{Irradiance, Radiance};
+use crate::quantity::{Intensity, Irradiance, Radiance};
 use crate::shape::Form;
-use crate::spectrum::MAX_LANES;
+use crate::spectrum::{CurveId, MAX_LANES};
 
 /// A light, by number.
 #[derive(Copy, Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -59,6 +59,8 @@ pub struct Light {
     pub name: String,
     /// Number of its group.
     pub group: u32,
+    /// What its lanes are multiplied with at a path's wavelengths.
+    pub spectrum: Option<CurveId>,
     /// What it is.
     pub kind: Kind,
 }
@@ -95,14 +97,20 @@ impl Light {
         )
     }
 
-    /// Intensity, irradiance or radiance of a lane, by kind, in SI units.
-    pub fn power(&self, lane: usize) -> f64 {
+    /// Intensity, irradiance or radiance of the lanes, by kind, in SI units.
+    pub fn power(&self) -> [f64; MAX_LANES] {
         match &self.kind {
-            Kind::Point(light) => light.intensity[lane].to_watts_per_steradian(),
-            Kind::Spot(light) => light.peak_intensity[lane].to_watts_per_steradian(),
-            Kind::Directional { irradiance, .. } => irradiance[lane].to_watts_per_square_metre(),
-            Kind::Environment { radiance } => radiance[lane].to_watts_per_square_metre_steradian(),
-            Kind::Area(light) => light.radiance[lane].to_watts_per_square_metre_steradian(),
+            Kind::Point(light) => light.intensity.map(Intensity::to_watts_per_steradian),
+            Kind::Spot(light) => light.peak_intensity.map(Intensity::to_watts_per_steradian),
+            Kind::Directional { irradiance, .. } => {
+                irradiance.map(Irradiance::to_watts_per_square_metre)
+            }
+            Kind::Environment { radiance } => {
+                radiance.map(Radiance::to_watts_per_square_metre_steradian)
+            }
+            Kind::Area(light) => light
+                .radiance
+                .map(Radiance::to_watts_per_square_metre_steradian),
         }
     }
 

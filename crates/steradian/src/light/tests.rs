@@ -13,6 +13,7 @@ fn light(kind: Kind) -> Light {
     Light {
         name: "lamp".into(),
         group: 2,
+        spectrum: None,
         kind,
     }
 }
@@ -206,6 +207,7 @@ fn area_light(two_sided: bool) -> Light {
     light(Kind::Area(AreaLight {
         shape: ShapeId(0),
         radiance: lanes(|lane| Radiance::from_watts_per_square_metre_steradian(RADIANCE * lane)),
+        textures: vec![],
         two_sided,
     }))
 }

@@ -196,9 +196,9 @@ impl Bitmap {
     }
 
     /// Linear red, green, blue, alpha at texture coordinates.
-    pub fn at(&self, [u, v]: [f32; 2]) -> [f32; 4] {
-        let x = f64::from(u) * f64::from(self.width);
-        let y = (1.0 - f64::from(v)) * f64::from(self.height);
+    pub fn at(&self, [u, v]: [f64; 2]) -> [f32; 4] {
+        let x = u * f64::from(self.width);
+        let y = (1.0 - v) * f64::from(self.height);
         match self.interpolation {
             Interpolation::Nearest => self.texel(x.floor() as i64, y.floor() as i64),
             Interpolation::Bilinear => self.between(x - 0.5, y - 0.5),

@@ -12,7 +12,7 @@ use crate::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
     LuminousFlux, LuminousIntensity, Radiance,
 };
-pub use crate::sensor::{Fisheye, FluxOf, Projection, Response};
+pub use crate::sensor::{Bins, Fisheye, FluxOf, Projection, Response};
 pub use crate::spectrum::LaneValues;
 
 /// Everything a run needs to know about a scene.
@@ -47,6 +47,11 @@ pub enum SpectrumMode {
     Broadband {
         /// Names of the bands, in order.
         bands: Vec<String>,
+    },
+    /// Four wavelengths of each path.
+    Spectral {
+        /// First and last wavelength in nm, within 280 to 4000; 360 to 830 is what the eye sees.
+        range: [f64; 2],
     },
 }
 
@@ -353,6 +358,8 @@ pub struct SensorDescription {
     pub name: String,
     /// Overrides the scene's response.
     pub response: Option<Response>,
+    /// Reads intervals of wavelength, beside the response if one is stated here (only in `spectral`).
+    pub bins: Option<Bins>,
     /// What it measures.
     pub kind: SensorKind,
 }

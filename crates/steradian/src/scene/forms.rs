@@ -1,13 +1,13 @@
 //! Shapes: the forms of each, one for each copy of a repeat, and what their parts are made of.
 
 use super::box_form::{FACE_NAMES, faces_of};
-use super::description::{GeometryDescription, Opening, Repeat, ShapeDescription};
+use super::description::{self, GeometryDescription, Opening, Repeat, ShapeDescription};
 use super::geometry::{Shaped, form};
 use super::materials::Materials;
-use super::{Part, PartProperties, Problem};
+use super::{Fault, Part, PartProperties, Problem};
 use crate::geometry::{Transform, Vector};
-use crate::material::MaterialId;
-use crate::shape::{PartId, Placed, ShapeId};
+use crate::material::{MaterialId, Pattern};
+use crate::shape::{Form, PartId, Placed, ShapeId};
 
 /// Copies a repeat may make.
 const MAX_COPIES: u64 = 10_000_000;
@@ -59,7 +59,12 @@ pub(super) fn prepare(
             .enumerate()
         {
             let transform = shape.transform.then(Transform::translate(step));
-            match form(&shape.geometry, &transform) {
+            let shaped = form(&shape.geometry, &transform);
+            let shaped = shaped.and_then(|shaped| {
+                check_textures(&shaped.form, shape, &sides, materials)?;
+                Ok(shaped)
+            });
+            match shaped {
                 Ok(shaped) => add(&mut forms, shape, index, copy, shaped, &sides),
                 Err((key, message)) => {
                     problems.push(Problem::at(part, key, message));
@@ -95,6 +100,37 @@ fn add(
         form: shaped.form,
         parts,
     });
+}
+
+/// Textures need coordinates, and colours of vertices need a mesh that has them.
+fn check_textures(
+    form: &Form,
+    shape: &ShapeDescription,
+    sides: &[Sides],
+    materials: &Materials,
+) -> Result<(), Fault> {
+    let ids = sides.iter().flatten();
+    let emission = shape
+        .emission
+        .iter()
+        .flat_map(|emission| &emission.textures);
+    let of_emission = emission.map(|texture| texture.pattern == description::Pattern::VertexColor);
+    let of_materials = ids.flat_map(|id| materials.materials[id.0 as usize].1.textures());
+    let of_materials = of_materials.map(|texture| texture.pattern == Pattern::VertexColor);
+    for (key, vertex_color) in of_materials
+        .map(|vertex_color| ("material", vertex_color))
+        .chain(of_emission.map(|vertex_color| ("emission", vertex_color)))
+    {
+        let has_colors = matches!(form, Form::Mesh(mesh) if !mesh.attributes.colors.is_empty());
+        if vertex_color && !has_colors {
+            return Err((key, "this shape has no vertices with colours".into()));
+        }
+        if !vertex_color && !form.has_coordinates() {
+            let message = "a texture needs texture coordinates, which this shape does not have";
+            return Err((key, message.into()));
+        }
+    }
+    Ok(())
 }
 
 /// Materials of the front and the back.

@@ -7,7 +7,7 @@ use super::box_form::{BoxMesh, box_mesh};
 use super::description::{GeometryDescription, MeshData, Opening, Port};
 use super::{Fault, Part, Problem};
 use crate::geometry::{Direction, Point, Polygon, PolygonError, Transform, Vector};
-use crate::shape::{Disc, Form, Parallelogram, Sphere, SpherePort, TriangleMesh};
+use crate::shape::{Attributes, Disc, Form, Parallelogram, Sphere, SpherePort, TriangleMesh};
 
 /// A form with the part (counted from 0) of each triangle.
 pub(super) struct Shaped {
@@ -248,7 +248,47 @@ fn mesh(data: &MeshData, transform: &Transform) -> Result<Shaped, Fault> {
             format!("triangle {index} of the mesh names a vertex beyond its {count} vertices");
         return Err(("triangles", message));
     }
-    transformed(&data.vertices, &data.triangles, transform).map(Shaped::from)
+    let attributes = attributes(data)?;
+    let form = transformed(&data.vertices, &data.triangles, transform)?;
+    Ok(match form {
+        Form::Mesh(mesh) => Form::Mesh(mesh.with_attributes(attributes)),
+        other => other,
+    }
+    .into())
+}
+
+/// Attributes, of which a mesh has none or one for each vertex.
+fn attributes(data: &MeshData) -> Result<Attributes, Fault> {
+    let count = data.vertices.len();
+    let (coordinates, colors) = (&data.texture_coordinates, &data.colors);
+    for (what, found) in [
+        ("texture coordinates", coordinates.len()),
+        ("colours", colors.len()),
+    ] {
+        if found != 0 && found != count {
+            let message = format!("a mesh of {count} vertices has {found} {what}");
+            return Err(("vertices", message));
+        }
+    }
+    if let Some(vertex) = coordinates
+        .iter()
+        .position(|uv| uv.iter().any(|x| !x.is_finite()))
+    {
+        let message = format!("the texture coordinates of vertex {vertex} are not finite");
+        return Err(("vertices", message));
+    }
+    let outside = |color: &[f32; 4]| color.iter().any(|x| !(0.0..=1.0).contains(x));
+    if let Some(vertex) = colors.iter().position(outside) {
+        let message = format!(
+            "the colour of vertex {vertex} lies between 0 and 1, not {:?}",
+            colors[vertex]
+        );
+        return Err(("vertices", message));
+    }
+    Ok(Attributes {
+        coordinates: coordinates.clone(),
+        colors: colors.clone(),
+    })
 }
 
 fn transformed(

@@ -1,5 +1,6 @@
 //! Lights: emission of shapes and lights without a shape, in lanes.
 
+use super::curves::Curves;
 use super::description::{
     EmissionAmount, EmissionDescription, LaneValues, LightDescription, LightKind, PointPower,
     ShapeDescription, SpotBeam,
@@ -12,7 +13,7 @@ use crate::quantity::{
     Amount, Angle, Area, Exitance, Flux, Intensity, Irradiance, Quantity, Radiance, SolidAngle,
 };
 use crate::shape::{Placed, ShapeId};
-use crate::spectrum::{Lanes, MAX_LANES};
+use crate::spectrum::{CurveId, LaneCurve, Lanes, MAX_LANES};
 
 /// A spot of a smaller half angle, in degrees, would have no solid angle left beside the rounding of its cosine.
 const NARROWEST_BEAM: f64 = 1e-4;
@@ -21,6 +22,7 @@ const NARROWEST_BEAM: f64 = 1e-4;
 pub(super) struct Builder<'a> {
     lanes: &'a Lanes,
     efficacy: f64,
+    curves: &'a mut Curves,
     pub lights: Vec<Light>,
     pub groups: Vec<String>,
     pub any_photometric: bool,
@@ -28,10 +30,11 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    pub fn new(lanes: &'a Lanes, efficacy: f64) -> Self {
+    pub fn new(lanes: &'a Lanes, efficacy: f64, curves: &'a mut Curves) -> Self {
         Self {
             lanes,
             efficacy,
+            curves,
             lights: vec![],
             groups: vec![],
             any_photometric: false,
@@ -67,12 +70,19 @@ impl<'a> Builder<'a> {
         forms: &mut Forms,
         placed: &Placed,
     ) -> Result<(), String> {
+        let power = self.emission(emission, placed.form.area())?;
+        let textures = super::materials::textures(&emission.textures, self.lanes, self.curves)?;
         let light = Kind::Area(AreaLight {
             shape: ShapeId(form as u32),
-            radiance: self.radiance(emission, placed.form.area())?,
+            radiance: power
+                .lanes
+                .map(Radiance::from_watts_per_square_metre_steradian),
+            textures,
             two_sided: emission.two_sided,
         });
-        let id = self.push(forms.names[form].clone(), emission.group.as_deref(), light);
+        let spectrum = self.curves.number(power.curve);
+        let group = emission.group.as_deref();
+        let id = self.push(forms.names[form].clone(), group, spectrum, light);
         for part in &placed.parts {
             forms.parts[part.0 as usize].light = Some(id);
         }
@@ -103,18 +113,26 @@ impl<'a> Builder<'a> {
     ) -> Result<(), Fault> {
         let own = light.name.clone();
         let name = own.unwrap_or_else(|| format!("light {index}"));
+        let power = self.power(light)?;
+        let spectrum = self.curves.number(power.curve);
         for (copy, step) in steps.iter().enumerate() {
-            let kind = self.kind(light, *step)?;
+            let kind = kind(light, *step, power.lanes)?;
             let name = match light.repeat {
                 Some(_) => format!("{name}[{copy}]"),
                 None => name.clone(),
             };
-            self.push(name, light.group.as_deref(), kind);
+            self.push(name, light.group.as_deref(), spectrum, kind);
         }
         Ok(())
     }
 
-    fn push(&mut self, name: String, group: Option<&str>, kind: Kind) -> LightId {
+    fn push(
+        &mut self,
+        name: String,
+        group: Option<&str>,
+        spectrum: Option<CurveId>,
+        kind: Kind,
+    ) -> LightId {
         let group = group.unwrap_or("default");
         let known = self.groups.iter().position(|known| known == group);
         let group = known.unwrap_or_else(|| {
@@ -124,6 +142,7 @@ impl<'a> Builder<'a> {
         self.lights.push(Light {
             name,
             group: group as u32,
+            spectrum,
             kind,
         });
         LightId(self.lights.len() as u32 - 1)
@@ -134,7 +153,7 @@ impl<'a> Builder<'a> {
         &mut self,
         amount: Amount<R, P>,
         shape: Option<&LaneValues>,
-    ) -> Result<[f64; MAX_LANES], String> {
+    ) -> Result<LaneCurve, String> {
         let (value, lanes) = match amount {
             Amount::Radiant(value) => {
                 self.any_radiant = true;
@@ -160,73 +179,48 @@ impl<'a> Builder<'a> {
         lanes.map_err(|error| error.to_string())
     }
 
-    fn radiance(
-        &mut self,
-        emission: &EmissionDescription,
-        area: f64,
-    ) -> Result<[Radiance; MAX_LANES], String> {
+    /// Radiance of each emitting side in SI units.
+    fn emission(&mut self, emission: &EmissionDescription, area: f64) -> Result<LaneCurve, String> {
         let shape = emission.spectrum.as_ref();
-        let of_exitance =
-            |lane| Radiance::from_lambertian_exitance(Exitance::from_watts_per_square_metre(lane));
+        let of_exitance = |lane| {
+            Radiance::from_lambertian_exitance(Exitance::from_watts_per_square_metre(lane))
+                .to_watts_per_square_metre_steradian()
+        };
         match emission.amount {
-            EmissionAmount::Radiance(amount) => Ok(self
-                .amount(amount, shape)?
-                .map(Radiance::from_watts_per_square_metre_steradian)),
+            EmissionAmount::Radiance(amount) => self.amount(amount, shape),
             EmissionAmount::Exitance(amount) => Ok(self.amount(amount, shape)?.map(of_exitance)),
             EmissionAmount::Flux(_) if area.is_infinite() => {
                 Err("an infinite plane has no total flux: give radiance or exitance".into())
             }
+            EmissionAmount::Flux(_) if !emission.textures.is_empty() => Err(
+                "the flux of an emission with a texture is not known: give radiance or exitance where the texture is 1".into(),
+            ),
             EmissionAmount::Flux(amount) => {
                 let sides = if emission.two_sided { 2.0 } else { 1.0 };
                 let area = Area::from_square_metres(area * sides);
-                let radiance = |lane| {
-                    Radiance::from_lambertian_exitance(Exitance::from_flux(
-                        Flux::from_watts(lane),
-                        area,
-                    ))
+                let exitance = |lane| {
+                    Exitance::from_flux(Flux::from_watts(lane), area).to_watts_per_square_metre()
                 };
-                Ok(self.amount(amount, shape)?.map(radiance))
+                let flux = self.amount(amount, shape)?;
+                Ok(flux.map(exitance).map(of_exitance))
             }
         }
     }
 
-    fn kind(&mut self, light: &LightDescription, step: Vector) -> Result<Kind, Fault> {
+    /// What a light is given by, in SI units: intensity, irradiance or radiance by kind.
+    fn power(&mut self, light: &LightDescription) -> Result<LaneCurve, Fault> {
         let shape = light.spectrum.as_ref();
         match &light.kind {
-            LightKind::Point { position, power } => Ok(Kind::Point(PointLight {
-                position: position_of(*position + step)?,
-                intensity: self.intensity(power, SolidAngle::SPHERE, shape)?,
-            })),
-            LightKind::Spot {
-                position,
-                direction,
-                beam,
-                power,
-            } => {
-                let beam = beam_of(beam)?;
-                Ok(Kind::Spot(SpotLight {
-                    position: position_of(*position + step)?,
-                    axis: direction_of(*direction)?,
-                    beam,
-                    peak_intensity: self.intensity(power, beam.solid_angle(), shape)?,
-                }))
+            LightKind::Point { power, .. } => self.intensity(power, SolidAngle::SPHERE, shape),
+            LightKind::Spot { power, beam, .. } => {
+                self.intensity(power, beam_of(beam)?.solid_angle(), shape)
             }
-            LightKind::Directional {
-                direction,
-                irradiance,
-            } => Ok(Kind::Directional {
-                direction: direction_of(*direction)?,
-                irradiance: self
-                    .amount(*irradiance, shape)
-                    .map_err(|message| ("irradiance", message))?
-                    .map(Irradiance::from_watts_per_square_metre),
-            }),
-            LightKind::Environment { radiance } => Ok(Kind::Environment {
-                radiance: self
-                    .amount(*radiance, shape)
-                    .map_err(|message| ("radiance", message))?
-                    .map(Radiance::from_watts_per_square_metre_steradian),
-            }),
+            LightKind::Directional { irradiance, .. } => self
+                .amount(*irradiance, shape)
+                .map_err(|message| ("irradiance", message)),
+            LightKind::Environment { radiance } => self
+                .amount(*radiance, shape)
+                .map_err(|message| ("radiance", message)),
         }
     }
 
@@ -235,22 +229,47 @@ impl<'a> Builder<'a> {
         power: &PointPower,
         beam: SolidAngle,
         shape: Option<&LaneValues>,
-    ) -> Result<[Intensity; MAX_LANES], Fault> {
+    ) -> Result<LaneCurve, Fault> {
         match *power {
-            PointPower::Intensity(amount) => {
-                let lanes = self
-                    .amount(amount, shape)
-                    .map_err(|message| ("intensity", message))?;
-                Ok(lanes.map(Intensity::from_watts_per_steradian))
-            }
+            PointPower::Intensity(amount) => self
+                .amount(amount, shape)
+                .map_err(|message| ("intensity", message)),
             PointPower::Flux(amount) => {
-                let lanes = self
+                let flux = self
                     .amount(amount, shape)
                     .map_err(|message| ("flux", message))?;
-                Ok(lanes.map(|lane| Flux::from_watts(lane) / beam))
+                Ok(flux.map(|lane| (Flux::from_watts(lane) / beam).to_watts_per_steradian()))
             }
         }
     }
+}
+
+/// The light of a description, moved by `step`, with its power in SI units.
+fn kind(light: &LightDescription, step: Vector, power: [f64; MAX_LANES]) -> Result<Kind, Fault> {
+    Ok(match &light.kind {
+        LightKind::Point { position, .. } => Kind::Point(PointLight {
+            position: position_of(*position + step)?,
+            intensity: power.map(Intensity::from_watts_per_steradian),
+        }),
+        LightKind::Spot {
+            position,
+            direction,
+            beam,
+            ..
+        } => Kind::Spot(SpotLight {
+            position: position_of(*position + step)?,
+            axis: direction_of(*direction)?,
+            beam: beam_of(beam)?,
+            peak_intensity: power.map(Intensity::from_watts_per_steradian),
+        }),
+        LightKind::Directional { direction, .. } => Kind::Directional {
+            direction: direction_of(*direction)?,
+            irradiance: power.map(Irradiance::from_watts_per_square_metre),
+        },
+        LightKind::Environment { .. } => Kind::Environment {
+            radiance: power.map(Radiance::from_watts_per_square_metre_steradian),
+        },
+    })
 }
 
 impl LightKind {

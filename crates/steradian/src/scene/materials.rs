@@ -1,9 +1,11 @@
 //! Materials by name: the reflectance of each side of a surface.
 
-use super::description::{LaneValues, MaterialDescription, MaterialModel};
-use super::{Part, Problem};
-use crate::material::{Material, MaterialId};
-use crate::quantity::Spectrum;
+use std::sync::Arc;
+
+use super::curves::Curves;
+use super::description::{self, LaneValues, MaterialDescription, MaterialModel, Varying};
+use super::{Fault, Part, Problem};
+use crate::material::{Bitmap, Hue, Material, MaterialId, Model, Opacity, Pattern, Texture, Tint};
 use crate::spectrum::Lanes;
 
 /// Prepared materials and the sides that each name stands for.
@@ -42,60 +44,162 @@ impl Materials {
 pub(super) fn prepare(
     descriptions: &[MaterialDescription],
     lanes: &Lanes,
+    curves: &mut Curves,
     problems: &mut Vec<Problem>,
 ) -> Materials {
     let mut prepared = Materials {
-        materials: vec![("black".into(), Material::Black)],
+        materials: vec![("black".into(), Material::BLACK)],
         sides: Vec::new(),
     };
     for (index, description) in descriptions.iter().enumerate() {
+        let (part, name) = (Part::Material(index), &description.name);
         let earlier = &descriptions[..index];
-        if earlier.iter().any(|other| other.name == description.name) {
-            problems.push(Problem::of(
-                Part::Material(index),
-                format!("material `{}` is defined twice", description.name),
-            ));
+        if earlier.iter().any(|other| other.name == *name) {
+            let message = format!("material `{name}` is defined twice");
+            problems.push(Problem::of(part, message));
         }
-        if let Some(material) =
-            one_sided(&description.model, lanes, Part::Material(index), problems)
-        {
-            let id = MaterialId(prepared.materials.len() as u32);
-            prepared
-                .materials
-                .push((description.name.clone(), material));
-            prepared.sides.push((description.name.clone(), [id, id]));
+        match one_sided(description, lanes, curves) {
+            Ok(Some(material)) => {
+                let id = MaterialId(prepared.materials.len() as u32);
+                prepared.materials.push((name.clone(), material));
+                prepared.sides.push((name.clone(), [id, id]));
+            }
+            Ok(None) => {}
+            Err((key, message)) => {
+                problems.push(Problem::at(part, key, message));
+                prepared.sides.push((name.clone(), [MaterialId::BLACK; 2]));
+            }
         }
     }
     add_two_sided(descriptions, &mut prepared, problems);
     prepared
 }
 
+/// `None` for a material that names another one for each side.
 fn one_sided(
-    model: &MaterialModel,
+    description: &MaterialDescription,
     lanes: &Lanes,
-    part: Part,
-    problems: &mut Vec<Problem>,
-) -> Option<Material> {
-    let mut reflectance = |values: &LaneValues| {
-        let lanes = lanes.reflectance(values).unwrap_or_else(|error| {
-            problems.push(Problem::at(part, "reflectance", error.to_string()));
-            [0.0; 4]
-        });
-        Spectrum::from_lanes(lanes.map(|lane| lane as f32))
+    curves: &mut Curves,
+) -> Result<Option<Material>, Fault> {
+    let fault = |message| ("reflectance", message);
+    let model = match &description.model {
+        MaterialModel::Lambertian { reflectance } => Model::Lambertian {
+            reflectance: tint(reflectance, lanes, curves).map_err(fault)?,
+        },
+        MaterialModel::Mirror { reflectance } => Model::Mirror {
+            reflectance: tint(&reflectance.clone().into(), lanes, curves).map_err(fault)?,
+        },
+        MaterialModel::TwoSided { .. } if description.opacity.is_some() => {
+            let message = "a material of two sides takes the opacity of each: state it there";
+            return Err(("opacity", message.into()));
+        }
+        MaterialModel::TwoSided { .. } => return Ok(None),
     };
-    match model {
-        MaterialModel::Lambertian {
-            reflectance: values,
-        } => Some(Material::Lambertian {
-            reflectance: reflectance(&values.factor),
-        }),
-        MaterialModel::Mirror {
-            reflectance: values,
-        } => Some(Material::Mirror {
-            reflectance: reflectance(values),
-        }),
-        MaterialModel::TwoSided { .. } => None,
+    let opacity = description.opacity.as_ref();
+    let opacity = opacity
+        .map(|opacity| prepare_opacity(opacity, lanes, curves))
+        .transpose()
+        .map_err(|message| ("opacity", message))?;
+    Ok(Some(Material { model, opacity }))
+}
+
+fn tint(values: &Varying, lanes: &Lanes, curves: &mut Curves) -> Result<Tint, String> {
+    Ok(Tint {
+        hue: hue(&values.factor, lanes, curves)?,
+        textures: textures(&values.textures, lanes, curves)?,
+    })
+}
+
+fn hue(values: &LaneValues, lanes: &Lanes, curves: &mut Curves) -> Result<Hue, String> {
+    let prepared = lanes
+        .reflectance(values)
+        .map_err(|error| error.to_string())?;
+    Ok(Hue {
+        lanes: prepared.lanes.map(|lane| lane as f32),
+        curve: curves.number(prepared.curve),
+    })
+}
+
+fn prepare_opacity(
+    opacity: &description::Opacity,
+    lanes: &Lanes,
+    curves: &mut Curves,
+) -> Result<Opacity, String> {
+    let within = |value: f64| (0.0..=1.0).contains(&value);
+    if !within(opacity.factor) || opacity.cutoff.is_some_and(|cutoff| !within(cutoff)) {
+        return Err(format!(
+            "an opacity and its cutoff lie between 0 and 1, not {} and {:?}",
+            opacity.factor, opacity.cutoff
+        ));
     }
+    let any_colour = Lanes::rgb();
+    let lanes = if opacity.textures.iter().all(is_picture) {
+        &any_colour
+    } else {
+        lanes
+    };
+    Ok(Opacity {
+        factor: opacity.factor as f32,
+        textures: textures(&opacity.textures, lanes, curves)?,
+        cutoff: opacity.cutoff.map(|cutoff| cutoff as f32),
+    })
+}
+
+/// Whether only alpha is asked of it.
+fn is_picture(texture: &description::Texture) -> bool {
+    !matches!(texture.pattern, description::Pattern::Checkerboard(_))
+}
+
+/// Textures in the lanes of the run.
+pub(super) fn textures(
+    descriptions: &[description::Texture],
+    lanes: &Lanes,
+    curves: &mut Curves,
+) -> Result<Vec<Texture>, String> {
+    let mut prepare = |texture: &description::Texture| {
+        let finite = texture
+            .placement
+            .0
+            .as_flattened()
+            .iter()
+            .all(|x| x.is_finite());
+        if !finite {
+            return Err("the placement of a texture is finite".to_owned());
+        }
+        let pattern = match &texture.pattern {
+            description::Pattern::Bitmap(bitmap) => {
+                check_bitmap(bitmap, lanes)?;
+                Pattern::Bitmap(Arc::clone(bitmap))
+            }
+            description::Pattern::Checkerboard([a, b]) => {
+                Pattern::Checkerboard([hue(a, lanes, curves)?, hue(b, lanes, curves)?])
+            }
+            description::Pattern::VertexColor => Pattern::VertexColor,
+        };
+        Ok(Texture {
+            pattern,
+            placement: texture.placement.0,
+        })
+    };
+    descriptions.iter().map(&mut prepare).collect()
+}
+
+/// Bands know no colours, and no surface reflects more than it receives.
+fn check_bitmap(bitmap: &Bitmap, lanes: &Lanes) -> Result<(), String> {
+    let colours = !(lanes.is_rgb() || lanes.is_spectral());
+    let texels = bitmap.texels();
+    for index in 0..texels.len() {
+        let [r, g, b, alpha] = texels.at(index);
+        if colours && (r != g || g != b) {
+            return Err("a coloured texture needs `spectrum = \"rgb\"` or `\"spectral\"`: bands know grey only".into());
+        }
+        if r.max(g).max(b).max(alpha) > 1.0 {
+            return Err(format!(
+                "the values of a texture lie between 0 and 1; texel {index} is [{r}, {g}, {b}, {alpha}]"
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn add_two_sided(

@@ -3,6 +3,8 @@
 mod appearance;
 mod box_form;
 mod cameras;
+mod channels;
+mod curves;
 pub mod description;
 mod forms;
 mod geometry;
@@ -11,8 +13,13 @@ mod materials;
 mod problem;
 mod receivers;
 mod sensors;
+mod spectral_readouts;
 mod unseen;
 
+use std::sync::Arc;
+
+pub use channels::CAMERA_CHANNELS;
+use curves::Curves;
 use problem::Fault;
 pub use problem::{Part, Place, Problem};
 pub use unseen::Unseen;
@@ -23,8 +30,8 @@ use crate::material::{Material, MaterialId};
 use crate::quantity::LuminousEfficacy;
 use crate::sensor::Sensor;
 use crate::shape::{ShapeId, Surfaces};
-use crate::spectrum::Lanes;
-use description::{MaterialDescription, MaterialModel, SceneDescription, SpectrumMode};
+use crate::spectrum::{Curve, CurveId, Lanes, MAX_LANES};
+use description::{MaterialDescription, MaterialModel, SceneDescription};
 
 /// What one part of a shape is made of.
 #[derive(Copy, Clone, Debug, PartialEq)]
@@ -49,6 +56,7 @@ pub struct Scene {
     parts: Vec<PartProperties>,
     materials: Vec<(String, Material)>,
     lights: Vec<Light>,
+    curves: Vec<Arc<Curve>>,
     sensors: Vec<Sensor>,
     warnings: Vec<String>,
     /// No material lets light pass.
@@ -69,12 +77,13 @@ impl Scene {
     }
 
     fn prepare(description: &SceneDescription, problems: &mut Vec<Problem>) -> Option<Self> {
-        let lanes = lanes(description, problems)?;
+        let lanes = channels::lanes(description, problems)?;
+        let mut curves = Curves::default();
         let efficacy = efficacy(description, problems);
-        let materials = materials::prepare(&description.materials, &lanes, problems);
+        let materials = materials::prepare(&description.materials, &lanes, &mut curves, problems);
         let mut forms = forms::prepare(&description.shapes, &materials, problems);
         let placed = std::mem::take(&mut forms.placed);
-        let mut lights = lights::Builder::new(&lanes, efficacy);
+        let mut lights = lights::Builder::new(&lanes, efficacy, &mut curves);
         lights.add_emission(&description.shapes, &mut forms, &placed, problems);
         lights.add_lights(&description.lights, problems);
         check_light(description, problems);
@@ -92,7 +101,7 @@ impl Scene {
         let sensors = sensors::prepare(&context, problems);
         Some(Self {
             name: description.name.clone(),
-            links_watts_and_lumens: sensors::crosses(&sensors, &lights),
+            links_watts_and_lumens: !lanes.is_spectral() && sensors::crosses(&sensors, &lights),
             efficacy,
             groups: lights.groups,
             surfaces,
@@ -100,6 +109,7 @@ impl Scene {
             parts: forms.parts,
             materials: materials.materials,
             lights: lights.lights,
+            curves: curves.0,
             sensors,
             warnings: description.warnings.clone(),
             is_opaque: description.materials.iter().all(stops_light),
@@ -122,7 +132,7 @@ impl Scene {
         LuminousEfficacy::from_lumens_per_watt(self.efficacy)
     }
 
-    /// K as reports state it; `None` where no band carries light.
+    /// K as reports state it; `None` where no band carries light and in `spectral`, which has none.
     pub fn reported_efficacy(&self) -> Option<f64> {
         self.lanes.light_weights().map(|_| self.efficacy)
     }
@@ -167,6 +177,22 @@ impl Scene {
         &self.lights
     }
 
+    /// Curves by number.
+    pub fn curves(&self) -> &[Arc<Curve>] {
+        &self.curves
+    }
+
+    /// The curve with this number.
+    pub fn curve(&self, id: CurveId) -> &Curve {
+        &self.curves[id.0 as usize]
+    }
+
+    /// What a light, or a number of the same spectrum, is in each channel.
+    pub fn channels(&self, light: &Light, lanes: [f64; MAX_LANES]) -> Vec<f64> {
+        self.lanes
+            .channels(lanes, light.spectrum.map(|id| self.curve(id)))
+    }
+
     /// Sensors in file order.
     pub fn sensors(&self) -> &[Sensor] {
         &self.sensors
@@ -177,20 +203,16 @@ impl Scene {
         &self.warnings
     }
 
-    /// Number of columns of a reading: groups × lanes.
+    /// Number of columns of a reading: groups × channels.
     pub fn columns(&self) -> usize {
         self.groups.len() * self.lanes.count()
     }
 
-    /// Radiance of the constant environments, by group and lane.
-    pub fn environment(&self) -> impl Iterator<Item = (u32, [f64; 4])> + '_ {
-        self.lights.iter().filter_map(|light| match &light.kind {
-            Kind::Environment { radiance } => Some((
-                light.group,
-                radiance.map(|value| value.to_watts_per_square_metre_steradian()),
-            )),
-            _ => None,
-        })
+    /// The constant environments.
+    pub fn environments(&self) -> impl Iterator<Item = &Light> {
+        self.lights
+            .iter()
+            .filter(|light| matches!(light.kind, Kind::Environment { .. }))
     }
 }
 
@@ -202,17 +224,6 @@ fn stops_light(material: &MaterialDescription) -> bool {
             | MaterialModel::Mirror { .. }
             | MaterialModel::TwoSided { .. } => true,
         }
-}
-
-fn lanes(description: &SceneDescription, problems: &mut Vec<Problem>) -> Option<Lanes> {
-    match &description.spectrum {
-        SpectrumMode::Rgb => Some(Lanes::rgb()),
-        SpectrumMode::Broadband { bands } => Lanes::broadband(bands)
-            .map_err(|error| {
-                problems.push(Problem::at(Part::Scene, "spectrum", error.to_string()));
-            })
-            .ok(),
-    }
 }
 
 fn check_light(description: &SceneDescription, problems: &mut Vec<Problem>) {

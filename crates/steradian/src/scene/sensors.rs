@@ -3,13 +3,17 @@
 use std::cell::LazyCell;
 
 use super::cameras::camera_of;
-use super::description::{self, Receivers, SceneDescription, SensorDescription, SensorKind, Side};
+use super::description::{
+    self, Bins, Receivers, SceneDescription, SensorDescription, SensorKind, Side,
+};
 use super::forms::Forms;
 use super::geometry::virtual_form;
 use super::lights::Builder;
 use super::receivers::{direction_of, no_points};
+use super::spectral_readouts;
 use super::{Fault, Part, Problem};
 use crate::geometry::{Point, Vector};
+use crate::sensor::readout::Quantity;
 use crate::sensor::{FluxOf, FluxSurface, Kind, Readout, Response, Sensor, readout};
 use crate::shape::{ShapeId, Solid, Surfaces};
 use crate::spectrum::Lanes;
@@ -70,10 +74,7 @@ pub(super) fn crosses(sensors: &[Sensor], lights: &Builder) -> bool {
 impl Context<'_> {
     fn sensor(&self, description: &SensorDescription) -> Result<Sensor, Fault> {
         let kind = self.kind(description)?;
-        let readouts = self.readouts(
-            &kind,
-            description.response.unwrap_or(self.description.response),
-        )?;
+        let readouts = self.readouts(&kind, description)?;
         Ok(Sensor {
             name: description.name.clone(),
             readouts,
@@ -81,36 +82,82 @@ impl Context<'_> {
         })
     }
 
-    fn readouts(&self, kind: &Kind, response: Response) -> Result<Vec<Readout>, Fault> {
-        let (radiant, photometric) = self.units(response)?;
-        let of = |names| readout::readouts(self.lanes, names, radiant, photometric, self.efficacy);
-        Ok(match kind {
-            Kind::Irradiance(_) => of(readout::IRRADIANCE.into()),
-            Kind::ScalarIrradiance(_) => of(readout::SCALAR.into()),
-            Kind::Radiance(_) | Kind::Camera(_) => of(readout::RADIANCE.into()),
-            Kind::Flux { area, of: what, .. } => {
-                let mean = match what {
-                    FluxOf::Incident => readout::MEAN_INCIDENT,
-                    FluxOf::Leaving => readout::MEAN_LEAVING,
-                    FluxOf::Absorbed => readout::MEAN_ABSORBED,
-                    FluxOf::Net => readout::MEAN_NET,
-                };
-                [of(readout::FLUX.into()), of(mean.per(*area))].concat()
-            }
-        })
+    fn readouts(&self, kind: &Kind, sensor: &SensorDescription) -> Result<Vec<Readout>, Fault> {
+        let response = sensor
+            .response
+            .as_ref()
+            .unwrap_or(&self.description.response);
+        self.check_response(response, sensor)?;
+        let units = self.units(response)?;
+        let of = |quantity: &Quantity| {
+            self.quantity(kind, quantity, units, (response, sensor.bins.as_ref()))
+        };
+        let quantities = quantities(kind);
+        let all: Vec<_> = quantities.iter().map(of).collect::<Result<_, _>>()?;
+        Ok(all.concat())
+    }
+
+    fn quantity(
+        &self,
+        kind: &Kind,
+        quantity: &Quantity,
+        (radiant, photometric): (bool, bool),
+        (response, bins): (&Response, Option<&Bins>),
+    ) -> Result<Vec<Readout>, Fault> {
+        if !self.lanes.is_spectral() {
+            let efficacy = self.efficacy;
+            return Ok(readout::readouts(
+                self.lanes,
+                *quantity,
+                radiant,
+                photometric,
+                efficacy,
+            ));
+        }
+        if matches!(kind, Kind::Camera(_)) {
+            return Ok(spectral_readouts::of_camera(quantity, radiant, photometric));
+        }
+        spectral_readouts::readouts(self.lanes, quantity, (radiant, photometric), response, bins)
+            .map_err(|message| ("bins", message))
+    }
+
+    /// Responses beside watts and lumens are made of wavelengths.
+    fn check_response(&self, response: &Response, sensor: &SensorDescription) -> Result<(), Fault> {
+        let plain = matches!(
+            response,
+            Response::Auto | Response::Radiant | Response::Photopic
+        );
+        if plain && sensor.bins.is_none() {
+            return Ok(());
+        }
+        if !self.lanes.is_spectral() {
+            let key = if plain { "bins" } else { "response" };
+            return Err((
+                key,
+                "this needs wavelengths: spectrum = \"spectral\"".into(),
+            ));
+        }
+        if matches!(sensor.kind, SensorKind::Camera(_)) {
+            let message = "a camera shows radiance or luminance, and colours: other responses are read by meters";
+            return Err(("response", message.into()));
+        }
+        Ok(())
     }
 
     /// Whether watts and whether lumens are reported.
-    fn units(&self, response: Response) -> Result<(bool, bool), Fault> {
+    fn units(&self, response: &Response) -> Result<(bool, bool), Fault> {
         let lights = self.lights;
         let (radiant, photometric) = match response {
             Response::Auto => (
                 lights.any_radiant || !lights.any_photometric,
                 lights.any_photometric,
             ),
-            Response::Radiant => (true, false),
             Response::Photopic => (false, true),
+            _ => (true, false),
         };
+        if self.lanes.is_spectral() {
+            return Ok((radiant, photometric));
+        }
         if photometric && self.lanes.light_weights().is_none() {
             let message = "no band of this scene carries light: name one `visible`";
             return Err(("response", message.into()));
@@ -236,6 +283,24 @@ impl Context<'_> {
                     );
                 }
             }
+        }
+    }
+}
+
+/// What a sensor of this kind reports.
+fn quantities(kind: &Kind) -> Vec<Quantity> {
+    match kind {
+        Kind::Irradiance(_) => vec![readout::IRRADIANCE.into()],
+        Kind::ScalarIrradiance(_) => vec![readout::SCALAR.into()],
+        Kind::Radiance(_) | Kind::Camera(_) => vec![readout::RADIANCE.into()],
+        Kind::Flux { area, of, .. } => {
+            let mean = match of {
+                FluxOf::Incident => readout::MEAN_INCIDENT,
+                FluxOf::Leaving => readout::MEAN_LEAVING,
+                FluxOf::Absorbed => readout::MEAN_ABSORBED,
+                FluxOf::Net => readout::MEAN_NET,
+            };
+            vec![readout::FLUX.into(), mean.per(*area)]
         }
     }
 }

@@ -13,7 +13,7 @@ mod camera;
 pub(crate) mod readout;
 
 pub use camera::{Camera, Fisheye, Projection};
-pub use readout::{Readout, Response, readouts};
+pub use readout::{Bins, Readout, Response, readouts};
 
 use serde::{Deserialize, Serialize};
 

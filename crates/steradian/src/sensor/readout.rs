@@ -1,11 +1,13 @@
 //! Which quantities a sensor reports, in which unit, and how they are read from the lanes.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use crate::spectrum::Lanes;
+use crate::spectrum::{Curve, Lanes};
 
 /// Which quantity a sensor reports.
-#[derive(Copy, Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum Response {
     /// Photometric when every light is given photometrically, radiant when every light is given radiometrically, else both.
     #[default]
@@ -14,6 +16,32 @@ pub enum Response {
     Radiant,
     /// Lumens.
     Photopic,
+    /// Lumens of the eye adapted to the dark, 1700 V′(λ) (only in `spectral`, as all that follow).
+    Scotopic,
+    /// CIE 1931 tristimulus values, scaled so that Y is photometric.
+    Xyz,
+    /// Photons from 400 to 700 nm, in µmol.
+    Par,
+    /// Melanopic watts (CIE S 026), and the equivalent daylight.
+    Melanopic,
+    /// Watts weighted by a table.
+    Table {
+        /// What it is called.
+        name: String,
+        /// The weights.
+        curve: Arc<Curve>,
+    },
+}
+
+/// Intervals of wavelength that are read one by one.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct Bins {
+    /// First and last wavelength in nm.
+    pub range: [f64; 2],
+    /// Width of an interval in nm; divides the range evenly.
+    pub width: f64,
+    /// Mean per nm in each interval, instead of the total.
+    pub per_nm: bool,
 }
 
 /// How one quantity is read from the lanes.
@@ -116,7 +144,17 @@ impl Names {
 }
 
 impl Quantity {
-    fn readout(
+    /// Radiant name and unit.
+    pub(crate) fn radiant(&self) -> (&'static str, &'static str) {
+        self.names.radiant
+    }
+
+    /// Photometric name and unit.
+    pub(crate) fn photometric(&self) -> (&'static str, &'static str) {
+        self.names.photometric
+    }
+
+    pub(crate) fn readout(
         &self,
         (name, unit): (&str, &str),
         weights: Vec<f64>,

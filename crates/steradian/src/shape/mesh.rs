@@ -13,6 +13,17 @@ pub struct TriangleMesh {
     /// Counter-clockwise from the front.
     pub triangles: Vec<[u32; 3]>,
     cumulative_area: Vec<f64>,
+    /// What varies over it.
+    pub attributes: Attributes,
+}
+
+/// Numbers of each vertex, interpolated within triangles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attributes {
+    /// Texture coordinates; empty if there are none.
+    pub coordinates: Vec<[f32; 2]>,
+    /// Linear Rec.709 and alpha; empty if there are none.
+    pub colors: Vec<[f32; 4]>,
 }
 
 impl TriangleMesh {
@@ -29,7 +40,13 @@ impl TriangleMesh {
             vertices,
             triangles,
             cumulative_area,
+            attributes: Attributes::default(),
         }
+    }
+
+    /// The same with attributes, of which there are none or one for each vertex.
+    pub fn with_attributes(self, attributes: Attributes) -> Self {
+        Self { attributes, ..self }
     }
 
     /// A in m².

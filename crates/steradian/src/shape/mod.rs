@@ -9,6 +9,7 @@
 //! | A = ∫ dA | area of a form | m² |
 //! | p(x) = 1/A | density of uniform area sampling | 1/m² |
 
+mod coordinates;
 mod disc;
 mod enclosure;
 mod form;
@@ -23,7 +24,7 @@ mod surfaces;
 pub use disc::Disc;
 pub use enclosure::{Enclosure, Side};
 pub use form::{AreaSample, Form};
-pub use mesh::TriangleMesh;
+pub use mesh::{Attributes, TriangleMesh};
 pub use parallelogram::Parallelogram;
 pub use solid::Solid;
 pub use sphere::{Sphere, SpherePort};

@@ -212,6 +212,33 @@ impl Curve {
         }
     }
 
+    /// The same samples, and this outside them.
+    #[must_use]
+    pub fn with_beyond(&self, beyond: Beyond) -> Self {
+        Self {
+            beyond,
+            ..self.clone()
+        }
+    }
+
+    /// The product at the samples of both curves, joined by straight lines.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Self {
+        let all = [f64::NEG_INFINITY, f64::INFINITY];
+        let mut wavelengths = breakpoints(&[self, other], all);
+        wavelengths.retain(|wavelength| wavelength.is_finite());
+        let values = wavelengths.iter().map(|&at| self.at(at) * other.at(at));
+        let beyond = match (self.beyond, other.beyond) {
+            (Beyond::Held, Beyond::Held) => Beyond::Held,
+            _ => Beyond::Zero,
+        };
+        Self {
+            values: values.collect(),
+            wavelengths,
+            beyond,
+        }
+    }
+
     /// ∫ f dλ over `range` in nm; 0 if the range is empty.
     pub fn integral(&self, range: [f64; 2]) -> f64 {
         self.product_integral(&Self::constant(1.0), range)

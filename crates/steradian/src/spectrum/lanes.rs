@@ -1,23 +1,34 @@
-//! The meaning of the lanes: names, weights of a reading, and the way an author's numbers become lanes.
+//! The meaning of the lanes: what a path carries, what a sensor's columns hold, and how an author's numbers become lanes.
 //!
-//! Lanes are always radiant. A photometric value is K times the light-carrying part of the lanes:
+//! A path carries *lanes*, a reading is made of *channels*. In `rgb` and `broadband` the two are the same and both are
+//! radiant; in `spectral` a path carries four wavelengths and a channel is ∫ R(λ) L_λ dλ with a response R:
 //!
-//! | mode | radiant value | photometric value |
-//! |---|---|---|
-//! | `rgb` | Y = .2126 R + .7152 G + .0722 B | K·Y |
-//! | `broadband` | Σ bands | K · band `visible` (or `total`) |
+//! | mode | lanes of a path | channels | radiant value | photometric value |
+//! |---|---|---|---|---|
+//! | `rgb` | R, G, B | R, G, B | Y = .2126 R + .7152 G + .0722 B | K·Y |
+//! | `broadband` | bands | bands | Σ bands | K · band `visible` (or `total`) |
+//! | `spectral` | L_λ at 4 wavelengths | responses | channel `radiant`, R = 1 | channel `photopic`, R = 683 V(λ) |
 //!
 //! A light of power P and colour c has the lanes P·c/Y(c) in `rgb`, so that its luminance-weighted mean is P whatever
-//! its colour. In `broadband` its power is shared among the bands in proportion to c.
+//! its colour. In `broadband` its power is shared among the bands in proportion to c. In `spectral` its shape s(λ) is
+//! scaled so that ∫ s dλ over the wavelengths its watts refer to is P, or 683 ∫ V s dλ its luminous power.
 //!
 //! Rec.709 weights: ITU-R BT.709-6, item 3.2.
 
+use std::sync::Arc;
+
 use thiserror::Error;
 
-use super::LaneValues;
+use super::{Action, Beyond, Curve, Grid, Illuminant, LaneValues, Sigmoid, VISIBLE};
 
 /// Lanes of a spectrum.
 pub const MAX_LANES: usize = 4;
+
+/// Widest range of wavelengths in nm.
+const WIDEST: [f64; 2] = [280.0, 4000.0];
+
+/// Name of the channel with response 1.
+pub const RADIANT: &str = "radiant";
 
 /// Luminance weights of linear Rec.709.
 const REC709: [f64; 3] = [0.2126, 0.7152, 0.0722];
@@ -72,13 +83,84 @@ pub enum LaneError {
     /// Lumens where no band carries light.
     #[error("no band of this scene carries light: name one `visible` (or `total`)")]
     NoVisibleBand,
+    /// A table outside `spectral`.
+    #[error("a table of wavelengths needs `spectrum = \"spectral\"`")]
+    TableNotSpectral,
+    /// Bands in `spectral`.
+    #[error("values by band need `spectrum = {{ bands = [...] }}`; this scene is spectral")]
+    BandsInSpectral,
+    /// A colour in a range that has more than colours.
+    #[error(
+        "[r, g, b] says nothing about light outside 360 to 830 nm, and this scene goes from {} to {} nm: give a table", range[0], range[1]
+    )]
+    RgbBeyondVisible {
+        /// The scene's range in nm.
+        range: [f64; 2],
+    },
+    /// A light that has no power where the run has wavelengths.
+    #[error("this spectrum is 0 between {} and {} nm", range[0], range[1])]
+    NoPower {
+        /// The range in nm.
+        range: [f64; 2],
+    },
+    /// A range that is none.
+    #[error("wavelengths range from 280 nm to 4000 nm at most, not from {} to {} nm", range[0], range[1])]
+    Range {
+        /// The range in nm.
+        range: [f64; 2],
+    },
+}
+
+/// Lanes of one reflectance or light: `lanes` times the curve at the path's wavelengths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LaneCurve {
+    /// Where the curve is 1.
+    pub lanes: [f64; MAX_LANES],
+    /// By wavelength; none if it is the same at all of them, and in modes without wavelengths.
+    pub curve: Option<Arc<Curve>>,
+}
+
+impl LaneCurve {
+    /// The same by wavelength, with other lanes.
+    #[must_use]
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self {
+            lanes: self.lanes.map(f),
+            ..self
+        }
+    }
+}
+
+impl From<[f64; MAX_LANES]> for LaneCurve {
+    fn from(lanes: [f64; MAX_LANES]) -> Self {
+        Self { lanes, curve: None }
+    }
+}
+
+/// What a sensor's column holds in `spectral`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// A name, unique in the run.
+    pub name: String,
+    /// R(λ).
+    pub response: Arc<Curve>,
 }
 
 /// The meaning of the lanes of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lanes {
     names: Vec<String>,
-    rgb: bool,
+    mode: Mode,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Mode {
+    Rgb,
+    Bands,
+    Spectral {
+        grid: Grid,
+        responses: Vec<Arc<Curve>>,
+    },
 }
 
 impl Lanes {
@@ -86,8 +168,28 @@ impl Lanes {
     pub fn rgb() -> Self {
         Self {
             names: ["red", "green", "blue"].map(String::from).to_vec(),
-            rgb: true,
+            mode: Mode::Rgb,
         }
+    }
+
+    /// Wavelengths within `range` in nm, read by these channels.
+    ///
+    /// # Errors
+    /// If the range is empty or reaches beyond 280 to 4000 nm.
+    pub fn spectral(range: [f64; 2], channels: Vec<Channel>) -> Result<Self, LaneError> {
+        let [low, high] = range;
+        if !(WIDEST[0] <= low && low < high && high <= WIDEST[1]) {
+            return Err(LaneError::Range { range });
+        }
+        let (names, responses) = channels
+            .into_iter()
+            .map(|channel| (channel.name, channel.response))
+            .unzip();
+        let grid = Grid::new(range);
+        Ok(Self {
+            names,
+            mode: Mode::Spectral { grid, responses },
+        })
     }
 
     /// Named bands.
@@ -104,50 +206,102 @@ impl Lanes {
         }
         Ok(Self {
             names: bands.to_vec(),
-            rgb: false,
+            mode: Mode::Bands,
         })
     }
 
-    /// Number of lanes in use.
+    /// Number of channels: columns of a reading for each light group.
     pub fn count(&self) -> usize {
         self.names.len()
     }
 
-    /// Names of the lanes.
+    /// Number of lanes that a path carries.
+    pub fn carried(&self) -> usize {
+        match self.mode {
+            Mode::Spectral { .. } => MAX_LANES,
+            _ => self.count(),
+        }
+    }
+
+    /// The wavelengths of a spectral run.
+    pub fn grid(&self) -> Option<&Grid> {
+        match &self.mode {
+            Mode::Spectral { grid, .. } => Some(grid),
+            _ => None,
+        }
+    }
+
+    /// R(λ) of each channel of a spectral run; empty in other modes.
+    pub fn responses(&self) -> &[Arc<Curve>] {
+        match &self.mode {
+            Mode::Spectral { responses, .. } => responses,
+            _ => &[],
+        }
+    }
+
+    /// What a light or an emission of these lanes is in each channel.
+    pub fn channels(&self, lanes: [f64; MAX_LANES], curve: Option<&Curve>) -> Vec<f64> {
+        let Mode::Spectral { grid, responses } = &self.mode else {
+            return lanes[..self.count()].to_vec();
+        };
+        let channel = |response: &Arc<Curve>| match curve {
+            Some(curve) => lanes[0] * curve.product_integral(response, grid.range()),
+            None => lanes[0] * response.integral(grid.range()),
+        };
+        responses.iter().map(channel).collect()
+    }
+
+    /// Number of the channel of this name.
+    pub fn channel(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
+    /// Names of the channels.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
     /// Whether the lanes are Rec.709 channels.
     pub fn is_rgb(&self) -> bool {
-        self.rgb
+        matches!(self.mode, Mode::Rgb)
     }
 
-    /// Weights of the lanes in a radiant value.
+    /// Whether paths carry wavelengths.
+    pub fn is_spectral(&self) -> bool {
+        matches!(self.mode, Mode::Spectral { .. })
+    }
+
+    /// Weights of the channels in a radiant value.
     pub fn radiant_weights(&self) -> Vec<f64> {
-        if self.rgb {
-            REC709.to_vec()
-        } else {
-            vec![1.0; self.count()]
+        match self.mode {
+            Mode::Rgb => REC709.to_vec(),
+            Mode::Bands => vec![1.0; self.count()],
+            Mode::Spectral { .. } => self.only(self.channel(RADIANT)),
         }
     }
 
-    /// Weights of the lanes in the part that carries light (to be multiplied by K); `None` if no band does.
+    /// 1 for one channel, 0 for all others.
+    pub fn only(&self, wanted: Option<usize>) -> Vec<f64> {
+        (0..self.count())
+            .map(|channel| f64::from(u8::from(Some(channel) == wanted)))
+            .collect()
+    }
+
+    /// Weights of the channels in the part that carries light, to be multiplied by K; `None` if no band does, and in
+    /// `spectral`, which has no K.
     pub fn light_weights(&self) -> Option<Vec<f64>> {
-        if self.rgb {
-            return Some(REC709.to_vec());
+        match self.mode {
+            Mode::Rgb => return Some(REC709.to_vec()),
+            Mode::Spectral { .. } => return None,
+            Mode::Bands => {}
         }
         let band = self.light_band()?;
-        Some(
-            (0..self.count())
-                .map(|lane| f64::from(u8::from(lane == band)))
-                .collect(),
-        )
+        Some(self.only(Some(band)))
     }
 
     /// True when watts and lumens are linked only by a number the author must give: the one band is `total`.
     pub fn needs_stated_efficacy(&self) -> bool {
-        !self.rgb && !self.names.iter().any(|name| name == "visible")
+        matches!(self.mode, Mode::Bands) && !self.names.iter().any(|name| name == "visible")
     }
 
     fn light_band(&self) -> Option<usize> {
@@ -156,12 +310,37 @@ impl Lanes {
     }
 
     /// Reflectance of each lane, 0 to 1.
-    pub fn reflectance(&self, values: &LaneValues) -> Result<[f64; MAX_LANES], LaneError> {
-        let lanes = self.values(values)?;
-        match lanes.iter().find(|value| !(0.0..=1.0).contains(*value)) {
+    pub fn reflectance(&self, values: &LaneValues) -> Result<LaneCurve, LaneError> {
+        let lanes = match (values, self.grid()) {
+            (LaneValues::Uniform(_), _) | (_, None) => self.values(values)?.into(),
+            (LaneValues::Curve { curve, .. }, Some(_)) => {
+                by_wavelength(curve.with_beyond(Beyond::Held))
+            }
+            (_, Some(grid)) => by_wavelength(self.colour(values, grid)?),
+        };
+        let curve = lanes.curve.iter().flat_map(|curve| curve.values());
+        let mut all = curve.chain(&lanes.lanes);
+        match all.find(|value| !(0.0..=1.0).contains(*value)) {
             Some(&outside) => Err(LaneError::Reflectance(outside)),
             None => Ok(lanes),
         }
+    }
+
+    /// The smooth reflectance of an RGB colour.
+    fn colour(&self, values: &LaneValues, grid: &Grid) -> Result<Curve, LaneError> {
+        let LaneValues::Rgb(rgb) = values else {
+            return Err(LaneError::BandsInSpectral);
+        };
+        let range = grid.range();
+        if range[0] < VISIBLE[0] || range[1] > VISIBLE[1] {
+            return Err(LaneError::RgbBeyondVisible { range });
+        }
+        if let Some(&outside) = rgb.iter().find(|value| !(0.0..=1.0).contains(*value)) {
+            return Err(LaneError::Reflectance(outside));
+        }
+        Sigmoid::from_rgb(*rgb)
+            .curve(range, 1.0)
+            .map_err(|_| LaneError::Spectrum)
     }
 
     /// Lanes of a light of radiant power `power` whose spectrum has this shape.
@@ -169,27 +348,69 @@ impl Lanes {
         &self,
         power: f64,
         shape: Option<&LaneValues>,
-    ) -> Result<[f64; MAX_LANES], LaneError> {
-        if shape.is_none() && !self.rgb && self.count() > 1 {
+    ) -> Result<LaneCurve, LaneError> {
+        if let Some(grid) = self.grid() {
+            let (curve, watts) = self.emission(shape, grid)?;
+            return scaled_to(power, curve.integral(watts), curve, watts);
+        }
+        if shape.is_none() && !self.is_rgb() && self.count() > 1 {
             return Err(LaneError::NoShares {
                 bands: self.shares(),
             });
         }
         self.scaled(power, shape, &self.radiant_weights())
+            .map(LaneCurve::from)
     }
 
-    /// Lanes of a light whose luminous power is `lumens`, with K = `efficacy`.
+    /// Lanes of a light whose luminous power is `lumens`, with K = `efficacy` in modes without wavelengths.
     pub fn luminous_power(
         &self,
         lumens: f64,
         efficacy: f64,
         shape: Option<&LaneValues>,
-    ) -> Result<[f64; MAX_LANES], LaneError> {
+    ) -> Result<LaneCurve, LaneError> {
+        if let Some(grid) = self.grid() {
+            let curve = self.emission(shape, grid)?.0;
+            let per_unit = curve.product_integral(Action::Photopic.weight(), VISIBLE);
+            return scaled_to(lumens, per_unit, curve, VISIBLE);
+        }
         let weights = self.light_weights().ok_or(LaneError::NoVisibleBand)?;
-        if shape.is_none() && !self.rgb {
-            return Ok(self.by_lane(|lane| weights[lane] * lumens / efficacy));
+        if shape.is_none() && !self.is_rgb() {
+            return Ok(self
+                .by_lane(|lane| weights[lane] * lumens / efficacy)
+                .into());
         }
         self.scaled(lumens / efficacy, shape, &weights)
+            .map(LaneCurve::from)
+    }
+
+    /// The shape of a light's spectrum, and the wavelengths that its watts refer to; equal energy unless stated.
+    fn emission(
+        &self,
+        shape: Option<&LaneValues>,
+        grid: &Grid,
+    ) -> Result<(Curve, [f64; 2]), LaneError> {
+        let (curve, watts) = match shape {
+            None => (Curve::constant(1.0), VISIBLE),
+            Some(LaneValues::Uniform(value)) => (Curve::constant(*value), VISIBLE),
+            Some(LaneValues::Curve { curve, watts }) => (Curve::clone(curve), *watts),
+            Some(LaneValues::Bands(_)) => return Err(LaneError::BandsInSpectral),
+            Some(LaneValues::Rgb(rgb)) => {
+                let greatest = rgb.iter().fold(0.0, |a: f64, b| a.max(*b));
+                if greatest.is_nan() || greatest <= 0.0 {
+                    return Err(LaneError::Spectrum);
+                }
+                let colour = LaneValues::Rgb(rgb.map(|value| value / greatest));
+                let white = Illuminant::D65.curve();
+                (self.colour(&colour, grid)?.times(white), VISIBLE)
+            }
+        };
+        let valid = curve.min() >= 0.0 && curve.max().is_finite() && curve.max() > 0.0;
+        if valid {
+            Ok((curve, watts))
+        } else {
+            Err(LaneError::Spectrum)
+        }
     }
 
     fn scaled(
@@ -214,11 +435,12 @@ impl Lanes {
     fn values(&self, values: &LaneValues) -> Result<[f64; MAX_LANES], LaneError> {
         match values {
             LaneValues::Uniform(value) => Ok(self.by_lane(|_| *value)),
-            LaneValues::Rgb(rgb) if self.rgb => Ok([rgb[0], rgb[1], rgb[2], 0.0]),
+            LaneValues::Curve { .. } => Err(LaneError::TableNotSpectral),
+            LaneValues::Rgb(rgb) if self.is_rgb() => Ok([rgb[0], rgb[1], rgb[2], 0.0]),
             LaneValues::Rgb(_) => Err(LaneError::RgbInBands {
                 bands: self.names.join(", "),
             }),
-            LaneValues::Bands(_) if self.rgb => Err(LaneError::BandsInRgb),
+            LaneValues::Bands(_) if self.is_rgb() => Err(LaneError::BandsInRgb),
             LaneValues::Bands(bands) => self.by_band(bands),
         }
     }
@@ -240,7 +462,7 @@ impl Lanes {
 
     fn by_lane(&self, value: impl Fn(usize) -> f64) -> [f64; MAX_LANES] {
         std::array::from_fn(|lane| {
-            if lane < self.count() {
+            if lane < self.carried() {
                 value(lane)
             } else {
                 0.0
@@ -255,6 +477,35 @@ impl Lanes {
             .collect::<Vec<_>>()
             .join(", ")
     }
+}
+
+fn by_wavelength(curve: Curve) -> LaneCurve {
+    LaneCurve {
+        lanes: [1.0; MAX_LANES],
+        curve: Some(Arc::new(curve)),
+    }
+}
+
+/// Lanes of a light whose shape has the power `per_unit`.
+fn scaled_to(
+    power: f64,
+    per_unit: f64,
+    curve: Curve,
+    range: [f64; 2],
+) -> Result<LaneCurve, LaneError> {
+    if per_unit.is_nan() || per_unit <= 0.0 {
+        return Err(LaneError::NoPower { range });
+    }
+    let factor = power / per_unit;
+    let is_constant = curve.values().len() == 1 && curve.beyond() == Beyond::Held;
+    Ok(if is_constant {
+        [factor * curve.values()[0]; MAX_LANES].into()
+    } else {
+        LaneCurve {
+            lanes: [factor; MAX_LANES],
+            curve: Some(Arc::new(curve)),
+        }
+    })
 }
 
 #[cfg(test)]
@@ -281,7 +532,7 @@ mod tests {
             let value: f64 = lanes
                 .radiant_weights()
                 .iter()
-                .zip(&power)
+                .zip(&power.lanes)
                 .map(|(w, x)| w * x)
                 .sum();
             assert!((value - 7.0).abs() < 1e-14 * 7.0);
@@ -293,16 +544,16 @@ mod tests {
         let lanes = bands(&["visible", "nir"]);
         assert_eq!(
             lanes.luminous_power(1790.0, 179.0, None).unwrap(),
-            [10.0, 0.0, 0.0, 0.0]
+            LaneCurve::from([10.0, 0.0, 0.0, 0.0])
         );
         let shape = LaneValues::Bands(vec![("nir".into(), 3.0), ("visible".into(), 1.0)]);
         assert_eq!(
             lanes.radiant_power(8.0, Some(&shape)).unwrap(),
-            [2.0, 6.0, 0.0, 0.0]
+            LaneCurve::from([2.0, 6.0, 0.0, 0.0])
         );
         assert_eq!(
             lanes.luminous_power(179.0, 179.0, Some(&shape)).unwrap(),
-            [1.0, 3.0, 0.0, 0.0]
+            LaneCurve::from([1.0, 3.0, 0.0, 0.0])
         );
         assert_eq!(lanes.light_weights(), Some(vec![1.0, 0.0]));
     }

@@ -26,14 +26,23 @@ mod tables;
 mod upsampling;
 mod upsampling_table;
 mod values;
+mod wavelengths;
 
 pub use blackbody::{blackbody, blackbody_radiance};
 pub use colour::{Matrix, apply, chromaticity, rgb_curves, rgb_from_xyz, xyz_from_rgb, xyz_of};
 pub use curve::{Beyond, Curve, CurveError};
 pub use illuminant::{Illuminant, daylight};
-pub use lanes::{LaneError, Lanes, MAX_LANES};
+pub use lanes::{Channel, LaneCurve, LaneError, Lanes, MAX_LANES, RADIANT};
 pub use observer::{Observer, photopic, scotopic};
 pub use response::{Action, MELANOPIC_EFFICACY_OF_D65, PHOTOPIC_EFFICACY, SCOTOPIC_EFFICACY};
 pub use upsampling::{Sigmoid, sigmoid_at};
 pub use upsampling_table::UpsamplingTable;
 pub use values::LaneValues;
+pub use wavelengths::{BakedCurve, Grid, WavelengthDensity, Wavelengths};
+
+/// What the eye sees, in nm; the range of a spectral run unless stated, and that to which watts without a table refer.
+pub const VISIBLE: [f64; 2] = [360.0, 830.0];
+
+/// A curve of a scene, by number.
+#[derive(Copy, Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CurveId(pub u32);

@@ -8,12 +8,16 @@ mod optics;
 
 use self::optics::Optics;
 use super::columns::{BATCH, Flight, Workspace};
+use super::measure::WAVELENGTH_BLOCK;
 use super::path::Tracer;
 use super::profile::Stage;
 use super::scatter;
 use super::tables::Tables;
 use crate::estimation::film::{PixelBatch, PixelSampler};
+use crate::sampling::block;
+use crate::scene::CAMERA_CHANNELS;
 use crate::sensor::Camera;
+use crate::spectrum::WavelengthDensity;
 
 /// Block of the first vertex behind a lens, out of the way of the blocks of a path's segments.
 const LIGHT_BLOCK: u32 = 1 << 30;
@@ -23,14 +27,21 @@ pub(super) struct CameraSampler<'a> {
     tracer: Tracer<'a>,
     origin: [f32; 3],
     optics: Optics,
+    /// Of wavelengths; none unless the run is spectral.
+    density: Option<WavelengthDensity>,
+    /// Channels of the film, of a spectral run.
+    channels: [usize; 4],
 }
 
 impl<'a> CameraSampler<'a> {
-    pub fn new(tracer: Tracer<'a>, camera: &Camera) -> Self {
+    pub fn new(tracer: Tracer<'a>, camera: &Camera, density: Option<WavelengthDensity>) -> Self {
+        let lanes = tracer.tables.scene.lanes();
         Self {
             origin: tracer.tables.scene.surfaces().to_kernel(camera.position),
             optics: Optics::new(camera),
             tracer,
+            channels: CAMERA_CHANNELS.map(|name| lanes.channel(name).unwrap_or(0)),
+            density,
         }
     }
 
@@ -41,6 +52,10 @@ impl<'a> CameraSampler<'a> {
             let Some((start, direction)) = self.optics.ray(batch.x[i], batch.y[i], numbers) else {
                 continue;
             };
+            if let Some(density) = &self.density {
+                let [w, ..] = block::sample(batch.keys[i], batch.indices[i], WAVELENGTH_BLOCK);
+                paths.wavelengths[i] = density.sample(w);
+            }
             paths.flights.push(Flight {
                 origin: std::array::from_fn(|axis| self.origin[axis] + start[axis]),
                 direction: direction.into(),
@@ -82,10 +97,29 @@ impl PixelSampler for CameraSampler<'_> {
         paths.watch.lap(Stage::Camera);
         self.tracer.follow(paths, 0, self.tables().for_surfaces());
         for (slot, lanes) in out.iter_mut().enumerate() {
+            if self.density.is_some() {
+                *lanes = self.channels(paths, slot);
+                continue;
+            }
             for lane in 0..self.tables().lanes {
                 lanes[lane] = paths.gathered[lane * BATCH + slot];
             }
         }
         paths.watch.lap(Stage::Camera);
+    }
+}
+
+impl CameraSampler<'_> {
+    /// Channels of the film, from the path of a slot.
+    fn channels(&self, paths: &Workspace, slot: usize) -> [f32; 4] {
+        let (tables, waves) = (self.tables(), &paths.wavelengths[slot]);
+        self.channels.map(|channel| {
+            let response = &tables.responses[channel];
+            let lane = |lane: usize| {
+                let read = response.at(waves.places[lane]) * waves.weights[lane];
+                paths.gathered[lane * BATCH + slot] * read
+            };
+            (lane(0) + lane(1)) + (lane(2) + lane(3))
+        })
     }
 }

@@ -3,7 +3,9 @@
 use steradian_kernel::{HitBatch, RayBatch};
 
 use super::profile::StopWatch;
-use crate::spectrum::MAX_LANES;
+use super::tables::{Emitter, Tables};
+use crate::material::Site;
+use crate::spectrum::{MAX_LANES, Wavelengths};
 
 /// Paths traced together.
 pub(super) const BATCH: usize = 1024;
@@ -32,6 +34,11 @@ impl Identity {
     pub fn len(&self) -> usize {
         self.slot.len()
     }
+
+    /// Slot, key and index of a row.
+    pub fn at(&self, i: usize) -> (u32, u64, u32) {
+        (self.slot[i], self.key[i], self.index[i])
+    }
 }
 
 /// Paths on their way to the next surface.
@@ -45,6 +52,8 @@ pub(super) struct Flights {
     /// Numbers that the next vertex samples a light with.
     pub light_u: Vec<f32>,
     pub light_v: Vec<f32>,
+    /// Metres since the path left its last vertex, through surfaces that let it pass.
+    pub travelled: Vec<f32>,
 }
 
 impl Flights {
@@ -52,7 +61,12 @@ impl Flights {
         self.rays.clear();
         self.identity.clear();
         self.throughput.iter_mut().for_each(Vec::clear);
-        for column in [&mut self.pdf, &mut self.light_u, &mut self.light_v] {
+        for column in [
+            &mut self.pdf,
+            &mut self.light_u,
+            &mut self.light_v,
+            &mut self.travelled,
+        ] {
             column.clear();
         }
     }
@@ -73,6 +87,27 @@ impl Flights {
         self.pdf.push(flight.pdf);
         self.light_u.push(flight.light[0]);
         self.light_v.push(flight.light[1]);
+        self.travelled.push(0.0);
+    }
+
+    /// The flight of row `i` goes on from `origin` as if nothing were there, having travelled so far.
+    pub fn pass_on(&mut self, from: &Self, i: usize, origin: [f32; 3], travelled: f32) {
+        let rays = &from.rays;
+        self.push(Flight {
+            origin,
+            direction: [
+                rays.direction_x[i],
+                rays.direction_y[i],
+                rays.direction_z[i],
+            ],
+            throughput: from.throughput.each_ref().map(|lane| lane[i]),
+            pdf: from.pdf[i],
+            identity: from.identity.at(i),
+            light: [from.light_u[i], from.light_v[i]],
+        });
+        if let Some(last) = self.travelled.last_mut() {
+            *last = travelled;
+        }
     }
 
     /// Room for `count` flights.
@@ -81,6 +116,8 @@ impl Flights {
         for column in self.throughput.iter_mut().chain([&mut self.pdf]) {
             column.resize(count, 0.0);
         }
+        self.travelled.clear();
+        self.travelled.resize(count, 0.0);
     }
 
     /// Takes over the identities of the vertices that are left, with new numbers for the next light.
@@ -187,6 +224,12 @@ impl Place {
     pub fn cleared(&self) -> [f32; 3] {
         std::array::from_fn(|axis| self.point[axis] + self.normal[axis] * self.clearance)
     }
+
+    /// The point moved off the other side.
+    #[inline(always)]
+    pub fn beyond(&self) -> [f32; 3] {
+        std::array::from_fn(|axis| self.point[axis] - self.normal[axis] * self.clearance)
+    }
 }
 
 /// One light sample a vertex, and its shadow ray; a vertex without a sample has an invalid ray and no gain.
@@ -197,9 +240,24 @@ pub(super) struct Shadows {
     /// Irradiance per unit of the emitter's power, weighted.
     pub gain: Vec<f32>,
     pub emitter: Vec<u32>,
+    /// The numbers that the emitter was sampled with, where its emission has textures.
+    pub numbers: Vec<[f32; 2]>,
+    /// What part of the light gets through where surfaces are not opaque.
+    pub transmittance: Vec<f32>,
 }
 
 impl Shadows {
+    /// What the emitter's surface knows of the point that row `i` sampled.
+    pub fn site(&self, tables: &Tables<'_>, emitter: &Emitter, i: usize) -> Site {
+        let rays = &self.rays;
+        let end = [
+            rays.origin_x[i] + rays.direction_x[i],
+            rays.origin_y[i] + rays.direction_y[i],
+            rays.origin_z[i] + rays.direction_z[i],
+        ];
+        tables.site_of_sample(emitter, self.numbers[i], end)
+    }
+
     /// Room for one sample a vertex, all without gain.
     pub fn reset(&mut self, count: usize) {
         self.rays.clear();
@@ -207,6 +265,7 @@ impl Shadows {
         self.gain.clear();
         self.gain.resize(count, 0.0);
         self.emitter.resize(count, 0);
+        self.numbers.resize(count, [0.0; 2]);
     }
 }
 
@@ -214,6 +273,10 @@ impl Shadows {
 #[derive(Default)]
 pub struct Workspace {
     pub(super) flights: Flights,
+    /// Flights that a surface let pass.
+    pub(super) passing: Flights,
+    /// By slot; of no meaning unless the run is spectral.
+    pub(super) wavelengths: Vec<Wavelengths>,
     pub(super) hits: HitBatch,
     pub(super) vertices: Vertices,
     pub(super) mirrors: Vertices,

@@ -2,6 +2,8 @@
 
 use steradian_kernel::{InstructionSet, RayBatch};
 
+use super::tables::Tables;
+use super::transmittance::transmittance;
 use crate::geometry::{Direction, Point};
 use crate::light::Kind;
 use crate::scene::Scene;
@@ -10,12 +12,13 @@ use crate::shape::Placed;
 
 /// Irradiance by lights without extent, E = Σ E_n cosθ · V, by column; scalar irradiance Σ E_n · V without a normal.
 pub(super) fn irradiance(
-    scene: &Scene,
+    tables: &Tables<'_>,
     point: Point,
     normal: Option<Direction>,
     clearance: f64,
 ) -> Vec<f64> {
-    let lanes = scene.lanes().count();
+    let scene = tables.scene;
+    let count = scene.lanes().count();
     let mut columns = vec![0.0; scene.columns()];
     let mut shadows = Vec::new();
     let mut rays = RayBatch::default();
@@ -46,22 +49,20 @@ pub(super) fn irradiance(
             span.to_array().map(|x| x as f32),
             reach,
         );
-        shadows.push(sample);
+        shadows.push((light, sample));
     }
-    let mut occluded = Vec::new();
-    scene
-        .surfaces()
-        .occluded(&rays, &mut occluded, InstructionSet::detect());
-    for (sample, _) in shadows
-        .iter()
-        .zip(occluded)
-        .filter(|(_, occluded)| !occluded)
-    {
-        let column = &mut columns[sample.group as usize * lanes..][..lanes];
+    let (mut occluded, mut through) = (Vec::new(), Vec::new());
+    let set = InstructionSet::detect();
+    transmittance(tables, &rays, &mut occluded, &mut through, set);
+    for ((light, sample), through) in shadows.iter().zip(through) {
+        let lanes = sample
+            .irradiance
+            .map(|lane| lane.to_watts_per_square_metre() * f64::from(through));
+        let column = &mut columns[sample.group as usize * count..][..count];
         column
             .iter_mut()
-            .zip(sample.irradiance)
-            .for_each(|(sum, lane)| *sum += lane.to_watts_per_square_metre());
+            .zip(scene.channels(light, lanes))
+            .for_each(|(sum, channel)| *sum += channel);
     }
     columns
 }
@@ -76,13 +77,24 @@ fn towards(kind: &Kind, point: Point) -> Option<Direction> {
     }
 }
 
-/// Adds the radiance that a side emits.
+/// Adds the radiance of the constant environments.
+pub(super) fn environment(scene: &Scene, columns: &mut [f64]) {
+    let count = scene.lanes().count();
+    for light in scene.environments() {
+        columns[light.group as usize * count..][..count]
+            .iter_mut()
+            .zip(scene.channels(light, light.power()))
+            .for_each(|(sum, channel)| *sum += channel);
+    }
+}
+
+/// Adds the radiance that a side emits, unless it varies over the surface.
 pub(super) fn emission(scene: &Scene, side: u32, columns: &mut [f64]) {
     let (part, front) = (scene.parts()[side as usize / 2], side.is_multiple_of(2));
     add_emission(scene, part.light, front, 1.0, columns);
 }
 
-/// Adds the flux that a shape emits from one side, as far as it counts: all of what leaves, less in a net.
+/// Adds the flux that a shape emits evenly from one side, as far as it counts: all of what leaves, less in a net.
 pub(super) fn emitted_flux(
     scene: &Scene,
     placed: &Placed,
@@ -115,20 +127,18 @@ fn add_emission(
     factor: f64,
     columns: &mut [f64],
 ) {
-    let lanes = scene.lanes().count();
+    let count = scene.lanes().count();
     let Some(light) = light.map(|id| &scene.lights()[id.0 as usize]) else {
         return;
     };
     if let Kind::Area(area) = &light.kind
         && (front || area.two_sided)
+        && area.textures.is_empty()
     {
-        let column = &mut columns[light.group as usize * lanes..][..lanes];
-        let radiance = area
-            .radiance
-            .map(|lane| lane.to_watts_per_square_metre_steradian());
+        let column = &mut columns[light.group as usize * count..][..count];
         column
             .iter_mut()
-            .zip(radiance)
-            .for_each(|(sum, lane)| *sum += factor * lane);
+            .zip(scene.channels(light, light.power()))
+            .for_each(|(sum, channel)| *sum += factor * channel);
     }
 }

@@ -26,6 +26,10 @@ pub(super) struct Hit {
     pub place: Place,
     /// Number of the side.
     pub side: u32,
+    /// Number of the primitive.
+    pub primitive: u32,
+    /// Barycentric weights of the second and third corner of a triangle.
+    pub weights: [f32; 2],
     /// From the point back along the ray.
     pub viewer: [f32; 3],
     /// Where the ray began.
@@ -68,10 +72,26 @@ pub(super) fn hit(tables: &Tables, rays: &RayBatch, hits: &HitBatch, i: usize) -
             clearance,
         },
         side: 2 * part + u32::from(!front),
+        primitive: hits.primitive[i],
+        weights: [hits.u[i], hits.v[i]],
         viewer: (-direction).into(),
         origin: origin.into(),
         distance_squared: (point - origin).length_squared(),
         cos_theta: against.abs(),
+    }
+}
+
+impl Hit {
+    /// The hit of a ray that had come `travelled` metres before it passed through a surface.
+    #[inline(always)]
+    pub fn after(mut self, travelled: f32) -> Self {
+        if travelled > 0.0 {
+            let way = travelled + self.distance_squared.sqrt();
+            let back = Vec3::from_array(self.viewer) * way;
+            self.origin = (Vec3::from_array(self.place.point) + back).into();
+            self.distance_squared = way * way;
+        }
+        self
     }
 }
 

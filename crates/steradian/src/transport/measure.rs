@@ -4,19 +4,27 @@ use std::f32::consts::FRAC_1_PI;
 use std::f64::consts::PI;
 
 use super::MeasureOptions;
-use super::columns::{BATCH, Flight, Place, Workspace};
+use super::appearance::site_at;
+use super::channels;
+use super::columns::{Flight, Place, Workspace};
 use super::meters::{FluxMeter, Meter, Prepared};
 use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter;
 use super::tables::{Candidates, Model, Tables};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
+use crate::geometry::{Direction, Point};
+use crate::material::Site;
 use crate::sampling::{block, hash, warp};
 use crate::scene::Scene;
 use crate::sensor::FluxOf;
+use crate::shape::Form;
+use crate::spectrum::WavelengthDensity;
 
 /// Block of the direction in which a meter looks, out of the way of the blocks of a path's segments.
 const DIRECTION_BLOCK: u32 = 1 << 30;
+/// Block of the wavelengths of a path, with the numbers of its camera's lens.
+pub(super) const WAVELENGTH_BLOCK: u32 = (1 << 30) + 1;
 /// First of the blocks with which a meter samples its lights.
 const LIGHT_BLOCK: u32 = 1 << 29;
 
@@ -36,6 +44,8 @@ pub(super) struct Meters<'a> {
     /// Of the columns, by sensor.
     weights: Vec<Vec<f64>>,
     columns: usize,
+    /// Of wavelengths, by sensor; none unless the run is spectral.
+    densities: Vec<WavelengthDensity>,
 }
 
 /// Paths that start alike.
@@ -44,6 +54,7 @@ enum Mode {
     Hemisphere { delta: bool },
     Sphere,
     Surface,
+    Ray,
 }
 
 impl Meter<'_> {
@@ -53,6 +64,7 @@ impl Meter<'_> {
             Meter::Flux(_) => Mode::Hemisphere { delta: true },
             Meter::Scalar(_) => Mode::Sphere,
             Meter::Surface { .. } => Mode::Surface,
+            Meter::Ray { .. } => Mode::Ray,
         }
     }
 
@@ -62,7 +74,7 @@ impl Meter<'_> {
             Meter::Irradiance(_) => PI,
             Meter::Flux(flux) => PI * flux.area,
             Meter::Scalar(_) => 4.0 * PI,
-            Meter::Surface { .. } => 1.0,
+            Meter::Surface { .. } | Meter::Ray { .. } => 1.0,
         }
     }
 }
@@ -81,6 +93,7 @@ impl<'a> Meters<'a> {
         options: &MeasureOptions,
         streams: Vec<Stream<'a>>,
         weights: Vec<Vec<f64>>,
+        densities: Vec<WavelengthDensity>,
     ) -> Self {
         let tracer = Tracer {
             tables,
@@ -93,6 +106,7 @@ impl<'a> Meters<'a> {
             streams,
             weights,
             columns: tables.scene.columns(),
+            densities,
         }
     }
 
@@ -101,6 +115,7 @@ impl<'a> Meters<'a> {
         workspace.paths.vertices.clear();
         workspace.paths.mirrors.clear();
         workspace.paths.viewer.iter_mut().for_each(Vec::clear);
+        workspace.paths.flights.clear();
         for (slot, run) in runs {
             self.start(*slot, run, workspace);
         }
@@ -110,6 +125,7 @@ impl<'a> Meters<'a> {
                 self.tracer.reflect(paths, 1);
                 self.tracer.follow(paths, 1, tables.for_surfaces());
             }
+            Mode::Ray => self.tracer.follow(paths, 0, tables.for_surfaces()),
             Mode::Sphere => self.look(paths, tables.for_meters(false), true),
             Mode::Hemisphere { delta } => self.look(paths, tables.for_meters(delta), false),
         }
@@ -155,7 +171,12 @@ impl<'a> Meters<'a> {
             let identity = ((slot + i as usize) as u32, run.key, run.first + i);
             let u = block::sample(run.key, run.first + i, 0);
             let paths = &mut workspace.paths;
-            match &self.streams[run.stream as usize].meter {
+            let stream = &self.streams[run.stream as usize];
+            if let Some(density) = self.densities.get(stream.sensor) {
+                let [w, ..] = block::sample(run.key, run.first + i, WAVELENGTH_BLOCK);
+                paths.wavelengths[identity.0 as usize] = density.sample(w);
+            }
+            match &stream.meter {
                 Meter::Irradiance(place) => {
                     paths
                         .vertices
@@ -170,7 +191,19 @@ impl<'a> Meters<'a> {
                     place,
                     side,
                     viewer,
-                } => self.start_at_surface(paths, (*place, *side, *viewer), identity, [u[2], u[3]]),
+                    site,
+                } => {
+                    let at = (*place, *side, *viewer, *site);
+                    self.start_at_surface(paths, at, identity, [u[2], u[3]]);
+                }
+                Meter::Ray { origin, direction } => paths.flights.push(Flight {
+                    origin: *origin,
+                    direction: *direction,
+                    throughput: [1.0; 4],
+                    pdf: f32::INFINITY,
+                    identity,
+                    light: [u[2], u[3]],
+                }),
                 Meter::Flux(flux) => self.start_on_flux(flux, u, identity, workspace),
             }
         }
@@ -179,21 +212,24 @@ impl<'a> Meters<'a> {
     fn start_at_surface(
         &self,
         paths: &mut Workspace,
-        (place, side, viewer): (Place, u32, [f32; 3]),
+        (place, side, viewer, site): (Place, u32, [f32; 3], Site),
         identity: (u32, u64, u32),
         light: [f32; 2],
     ) {
-        let side = &self.tracer.tables.sides[side as usize];
+        let tables = self.tracer.tables;
+        let side = &tables.sides[side as usize];
+        let wavelengths = paths.wavelengths[identity.0 as usize];
+        let reflectance = tables.reflectance(side, &wavelengths, || site);
         match side.model {
             Model::Black => {}
             Model::Lambertian => paths.vertices.push(
                 place,
-                side.reflectance.map(|lane| lane * FRAC_1_PI),
+                reflectance.map(|lane| lane * FRAC_1_PI),
                 identity,
                 light,
             ),
             Model::Mirror => {
-                paths.mirrors.push(place, side.reflectance, identity, light);
+                paths.mirrors.push(place, reflectance, identity, light);
                 paths
                     .viewer
                     .iter_mut()
@@ -211,9 +247,10 @@ impl<'a> Meters<'a> {
         workspace: &mut MeterWorkspace,
     ) {
         let scene = self.tracer.tables.scene;
-        let Some((point, mut normal, part)) = flux.draw([f64::from(u[0]), f64::from(u[1])]) else {
+        let Some(drawn) = flux.draw([f64::from(u[0]), f64::from(u[1])]) else {
             return;
         };
+        let (point, mut normal, part) = (drawn.point, drawn.normal, drawn.part);
         let mut front = flux.front;
         let mut weights = [1.0_f32; 4];
         match (flux.of, part) {
@@ -225,22 +262,41 @@ impl<'a> Meters<'a> {
                 workspace.sign[identity.0 as usize] = if front { 2.0 } else { -2.0 };
             }
             (of, Some(part)) => {
-                let side = &self.tracer.tables.sides[2 * part as usize + usize::from(!front)];
+                let tables = self.tracer.tables;
+                let side = &tables.sides[2 * part as usize + usize::from(!front)];
+                let wavelengths = workspace.paths.wavelengths[identity.0 as usize];
+                let site = || drawn.site();
                 let reflectance = if side.model == Model::Black {
                     [0.0; 4]
                 } else {
-                    side.reflectance
+                    tables.reflectance(side, &wavelengths, site)
                 };
+                let opacity = tables.opacity(side, site).unwrap_or(1.0);
                 weights = if of == FluxOf::Leaving {
-                    reflectance
+                    reflectance.map(|lane| opacity * lane)
                 } else {
-                    reflectance.map(|lane| 1.0 - lane)
+                    reflectance.map(|lane| opacity * (1.0 - lane))
                 };
                 // A path that starts with a weight below 1 would end by roulette at once: the sum takes it instead.
                 let lanes = &weights[..self.tracer.tables.lanes];
-                let greatest = lanes.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
+                let greatest = match lanes.iter().copied().fold(0.0, f32::max) {
+                    greatest if greatest > 0.0 => greatest,
+                    _ => 1.0,
+                };
                 workspace.sign[identity.0 as usize] = f64::from(greatest);
                 weights = weights.map(|weight| weight / greatest);
+                if side.emits && tables.has_textures(side.radiance_tint) {
+                    let sign = match of {
+                        FluxOf::Leaving => 1.0,
+                        FluxOf::Net => -1.0,
+                        FluxOf::Incident | FluxOf::Absorbed => 0.0,
+                    };
+                    let radiance = tables.radiance(side, &wavelengths, site);
+                    let gathered = &mut workspace.paths.gathered;
+                    self.tracer.add(gathered, side.group, identity.0, |lane| {
+                        sign * radiance[lane] / greatest
+                    });
+                }
             }
             (FluxOf::Absorbed, None) => {}
         }
@@ -261,15 +317,17 @@ impl<'a> Meters<'a> {
     }
 
     fn tally(&self, batch: &SampleBatch, workspace: &mut MeterWorkspace, tally: &mut Tally) {
+        let tables = self.tracer.tables;
         let mut slot = 0;
         for (number, run) in batch.runs.iter().enumerate() {
             let scale = self.streams[run.stream as usize].meter.scale();
             for _ in 0..run.count {
                 let factor = scale * workspace.sign[slot];
-                for column in 0..self.columns {
-                    workspace.columns[column] =
-                        f64::from(workspace.paths.gathered[column * BATCH + slot]) * factor;
-                }
+                channels::read(tables, &workspace.paths, slot, &mut workspace.columns);
+                workspace
+                    .columns
+                    .iter_mut()
+                    .for_each(|column| *column *= factor);
                 tally.sample(
                     number,
                     &workspace.columns,
@@ -360,15 +418,8 @@ fn leave_over_sphere(paths: &mut Workspace) {
 }
 
 impl FluxMeter<'_> {
-    /// A point by area with the normal of the front and the part there; `None` in an opening.
-    fn draw(
-        &self,
-        u: [f64; 2],
-    ) -> Option<(
-        crate::geometry::Point,
-        crate::geometry::Direction,
-        Option<u32>,
-    )> {
+    /// A point by area; `None` in an opening.
+    fn draw(&self, u: [f64; 2]) -> Option<Drawn<'_>> {
         let index = self
             .forms
             .partition_point(|(_, _, share)| *share <= u[0])
@@ -382,7 +433,28 @@ impl FluxMeter<'_> {
         let within = ((u[0] - before) / (share - before)).clamp(0.0, 1.0 - f64::EPSILON);
         let sample = form.sample_area([within, u[1]])?;
         let part = parts.map(|parts| parts[if parts.len() > 1 { sample.face } else { 0 }].0);
-        Some((sample.point, sample.normal, part))
+        Some(Drawn {
+            form,
+            face: sample.face,
+            point: sample.point,
+            normal: sample.normal,
+            part,
+        })
+    }
+}
+
+/// A point of a surface with the normal of its front, and its part unless the surface is virtual.
+struct Drawn<'a> {
+    form: &'a Form,
+    face: usize,
+    point: Point,
+    normal: Direction,
+    part: Option<u32>,
+}
+
+impl Drawn<'_> {
+    fn site(&self) -> Site {
+        site_at(self.form, self.face, self.point)
     }
 }
 

@@ -15,9 +15,10 @@ use steradian_kernel::{HitBatch, MISS, RayBatch};
 use super::columns::Place;
 use super::exact;
 use super::interaction::hit;
-use super::tables::{Model, Tables};
+use super::tables::{Model, OPAQUE, Side, Tables};
 use crate::geometry::{Direction, Point};
 use crate::light::Light;
+use crate::material::Site;
 use crate::scene::Scene;
 use crate::sensor::{FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
 use crate::shape::Form;
@@ -33,6 +34,12 @@ pub(super) enum Meter<'a> {
         place: Place,
         side: u32,
         viewer: [f32; 3],
+        site: Site,
+    },
+    /// A ray, of which nothing is known beforehand.
+    Ray {
+        origin: [f32; 3],
+        direction: [f32; 3],
     },
     /// A surface.
     Flux(FluxMeter<'a>),
@@ -109,18 +116,19 @@ impl<'t, 'a> Context<'t, 'a> {
             dark: vec![],
             closed_at_points: vec![],
         };
-        let reflects = |lane: usize| {
-            max_depth >= 2
-                && tables
-                    .sides
-                    .iter()
-                    .any(|side| side.model != Model::Black && side.reflectance[lane] > 0.0)
+        let reflects = |channel: usize| {
+            let by = |side: &Side| side.model != Model::Black && side.may_reflect(channel);
+            max_depth >= 2 && tables.sides.iter().any(by)
         };
-        let reflects: Vec<bool> = (0..tables.lanes).map(reflects).collect();
-        let shines = |light: &Light, lane: usize| light.power(lane) > 0.0;
-        let dark = context.columns_where(shines);
-        let closed_at_points = context.columns_where(|light, lane| {
-            shines(light, lane) && (reflects[lane] || !light.is_delta())
+        let channels = scene.lanes().count();
+        let reflects: Vec<bool> = (0..channels).map(reflects).collect();
+        let of = |light: &Light| scene.channels(light, light.power());
+        let dark = context.columns_where(|light| of(light).iter().map(|x| *x > 0.0).collect());
+        let closed_at_points = context.columns_where(|light| {
+            let shines = of(light).into_iter().zip(&reflects);
+            shines
+                .map(|(x, reflects)| x > 0.0 && (*reflects || !light.is_delta()))
+                .collect()
         });
         Context {
             dark,
@@ -133,18 +141,17 @@ impl<'t, 'a> Context<'t, 'a> {
         self.scene.columns()
     }
 
-    /// True for the columns to which no light contributes.
-    fn columns_where(&self, contributes: impl Fn(&Light, usize) -> bool) -> Vec<bool> {
-        let column = |column: usize| {
-            let (group, lane) = (column / self.tables.lanes, column % self.tables.lanes);
-            let mut lights = self
-                .scene
-                .lights()
-                .iter()
-                .filter(|light| light.group as usize == group);
-            !lights.any(|light| contributes(light, lane))
-        };
-        (0..self.columns()).map(column).collect()
+    /// True for the columns to which no light contributes; `contributes` tells for each channel.
+    fn columns_where(&self, contributes: impl Fn(&Light) -> Vec<bool>) -> Vec<bool> {
+        let channels = self.scene.lanes().count();
+        let mut none = vec![true; self.columns()];
+        for light in self.scene.lights() {
+            let columns = &mut none[light.group as usize * channels..][..channels];
+            for (none, contributes) in columns.iter_mut().zip(contributes(light)) {
+                *none &= !contributes;
+            }
+        }
+        none
     }
 
     /// Whether a point can receive anything that must be sampled.
@@ -173,7 +180,7 @@ impl<'t, 'a> Context<'t, 'a> {
             normal: Some(receiver.normal),
             sits_on: receiver.sits_on.clone(),
             exact: exact::irradiance(
-                self.scene,
+                self.tables,
                 receiver.position,
                 Some(receiver.normal),
                 receiver.clearance,
@@ -197,7 +204,7 @@ impl<'t, 'a> Context<'t, 'a> {
             position: Some(point),
             normal: None,
             sits_on: None,
-            exact: exact::irradiance(self.scene, point, None, 0.0),
+            exact: exact::irradiance(self.tables, point, None, 0.0),
             closed: self.closed_at_points.clone(),
             meter: self.samples_points().then_some(Meter::Scalar(place)),
             stream: None,
@@ -243,25 +250,26 @@ impl<'t, 'a> Context<'t, 'a> {
         index: usize,
         exact: &mut [f64],
     ) -> Option<Meter<'a>> {
-        let lanes = self.tables.lanes;
         if hits.primitive[index] == MISS {
-            for (group, radiance) in self.scene.environment() {
-                let columns = &mut exact[group as usize * lanes..][..lanes];
-                columns
-                    .iter_mut()
-                    .zip(radiance)
-                    .for_each(|(sum, lane)| *sum += lane);
-            }
+            exact::environment(self.scene, exact);
             return None;
         }
         let hit = hit(self.tables, rays, hits, index);
+        let side = &self.tables.sides[hit.side as usize];
+        let emission_varies = side.emits && self.tables.has_textures(side.radiance_tint);
+        if side.opacity != OPAQUE || emission_varies {
+            return (self.max_depth >= 1).then_some(Meter::Ray {
+                origin: hit.origin,
+                direction: hit.viewer.map(|axis| -axis),
+            });
+        }
         exact::emission(self.scene, hit.side, exact);
-        let reflects =
-            self.tables.sides[hit.side as usize].model != Model::Black && self.max_depth >= 2;
-        reflects.then_some(Meter::Surface {
+        let reflects = side.model != Model::Black && self.max_depth >= 2;
+        reflects.then(|| Meter::Surface {
             place: hit.place,
             side: hit.side,
             viewer: hit.viewer,
+            site: self.tables.site(&hit),
         })
     }
 

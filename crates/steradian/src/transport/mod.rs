@@ -3,7 +3,9 @@
 //! [`measure`] reads every sensor but cameras, [`render`] a camera. Both run the [`path`](self) estimator under the
 //! engine of [`estimation`](crate::estimation), which decides how many samples are taken and how large the error is.
 
+mod appearance;
 mod camera;
+mod channels;
 mod columns;
 mod exact;
 mod interaction;
@@ -19,6 +21,7 @@ mod run;
 mod scatter;
 mod tables;
 mod towards;
+mod transmittance;
 mod unsampled;
 
 pub use profile::{Stage, StageTimes, profile};

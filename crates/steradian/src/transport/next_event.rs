@@ -18,6 +18,7 @@ use super::path::Tracer;
 use super::profile::Stage;
 use super::tables::{Candidates, EmitterShape, Tables};
 use super::towards::{cone, towards};
+use super::transmittance::transmittance;
 
 /// One pass over the vertices of a batch.
 pub(super) struct NextEvent<'a> {
@@ -79,7 +80,8 @@ impl NextEvent<'_> {
                 area,
             },
             false,
-        ) = (&emitter.shape, self.spherical)
+            false,
+        ) = (&emitter.shape, self.spherical, emitter.textured)
         {
             shadows.emitter.fill(number as u32);
             let (origin, edges, normal) = (*origin, *edges, *normal);
@@ -136,6 +138,7 @@ impl NextEvent<'_> {
         shadows.gain[i] =
             foreshortening * towards.per_power / (probability * (1.0 + ratio * ratio));
         shadows.emitter[i] = number as u32;
+        shadows.numbers[i] = u;
         let start = Vec3::from_array(if self.spherical {
             place.point
         } else {
@@ -154,23 +157,26 @@ impl NextEvent<'_> {
         workspace.watch.lap(Stage::Lights);
         let (shadows, vertices) = (&mut workspace.shadows, &workspace.vertices);
         let tables = self.tracer.tables;
-        tables
-            .scene
-            .surfaces()
-            .occluded(&shadows.rays, &mut shadows.occluded, self.tracer.set);
+        transmittance(
+            tables,
+            &shadows.rays,
+            &mut shadows.occluded,
+            &mut shadows.transmittance,
+            self.tracer.set,
+        );
         for i in 0..vertices.len() {
-            let gain = shadows.gain[i];
-            if shadows.occluded[i] || gain == 0.0 {
+            let gain = shadows.gain[i] * shadows.transmittance[i];
+            if gain == 0.0 {
                 continue;
             }
             let emitter = &tables.emitters[shadows.emitter[i] as usize];
-            let response = &vertices.response;
-            self.tracer.add(
-                &mut workspace.gathered,
-                emitter.group,
-                vertices.identity.slot[i],
-                |lane| response[lane][i] * emitter.power[lane] * gain,
-            );
+            let (response, slot) = (&vertices.response, vertices.identity.slot[i]);
+            let wavelengths = &workspace.wavelengths[slot as usize];
+            let power = tables.power(emitter, wavelengths, || shadows.site(tables, emitter, i));
+            self.tracer
+                .add(&mut workspace.gathered, emitter.group, slot, |lane| {
+                    response[lane][i] * power[lane] * gain
+                });
         }
         workspace.watch.lap(Stage::Shadows);
     }

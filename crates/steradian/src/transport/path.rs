@@ -23,7 +23,9 @@ use super::interaction::{Hit, hit};
 use super::next_event::NextEvent;
 use super::profile::Stage;
 use super::scatter;
-use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, Side, Tables};
+use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, OPAQUE, Side, Tables};
+use crate::sampling::hash;
+use crate::spectrum::Wavelengths;
 
 /// Traces batches of paths through a scene.
 pub(super) struct Tracer<'a> {
@@ -51,7 +53,10 @@ impl Tracer<'_> {
         debug_assert!(slots <= BATCH);
         workspace.gathered.clear();
         workspace.gathered.resize(self.columns() * BATCH, 0.0);
+        workspace.wavelengths.clear();
+        workspace.wavelengths.resize(slots, Wavelengths::default());
         workspace.flights.clear();
+        workspace.passing.clear();
         workspace.vertices.clear();
         workspace.mirrors.clear();
     }
@@ -71,8 +76,12 @@ impl Tracer<'_> {
                 self.set,
             );
             workspace.watch.lap(Stage::Closest);
+            workspace.vertices.clear();
+            workspace.mirrors.clear();
+            workspace.viewer.iter_mut().for_each(Vec::clear);
             self.arrive(workspace, candidates);
             workspace.watch.lap(Stage::Arrive);
+            self.pass_on(workspace, candidates);
             if segment == self.max_depth {
                 return;
             }
@@ -96,25 +105,36 @@ impl Tracer<'_> {
 
     /// Adds emission found at the hits and collects the vertices that reflect.
     fn arrive(&self, workspace: &mut Workspace, candidates: Candidates) {
-        workspace.vertices.clear();
-        workspace.mirrors.clear();
-        workspace.viewer.iter_mut().for_each(Vec::clear);
+        let tables = self.tables;
         for i in 0..workspace.flights.len() {
+            let slot = workspace.flights.identity.slot[i];
+            let wavelengths = workspace.wavelengths[slot as usize];
             if workspace.hits.primitive[i] == MISS {
-                self.escape(&workspace.flights, i, &mut workspace.gathered);
+                self.escape(&workspace.flights, i, &wavelengths, &mut workspace.gathered);
                 continue;
             }
-            let hit = hit(self.tables, &workspace.flights.rays, &workspace.hits, i);
-            let side = &self.tables.sides[hit.side as usize];
+            let hit = hit(tables, &workspace.flights.rays, &workspace.hits, i)
+                .after(workspace.flights.travelled[i]);
+            let side = &tables.sides[hit.side as usize];
             if side.emits {
                 let weight = self.emission_weight(side, &hit, workspace.flights.pdf[i], candidates);
-                self.add(
-                    &mut workspace.gathered,
-                    side.group,
-                    workspace.flights.identity.slot[i],
-                    |lane| workspace.flights.throughput[lane][i] * side.radiance[lane] * weight,
-                );
+                let radiance = tables.radiance(side, &wavelengths, || tables.site(&hit));
+                self.add(&mut workspace.gathered, side.group, slot, |lane| {
+                    workspace.flights.throughput[lane][i] * radiance[lane] * weight
+                });
             }
+            if side.opacity != OPAQUE && self.passes(&workspace.flights, i, side, &hit) {
+                let way = hit.distance_squared.sqrt();
+                let beyond = hit.place.beyond();
+                workspace
+                    .passing
+                    .pass_on(&workspace.flights, i, beyond, way);
+                continue;
+            }
+            if side.model == Model::Black {
+                continue;
+            }
+            let reflectance = tables.reflectance(side, &wavelengths, || tables.site(&hit));
             match side.model {
                 Model::Black => {}
                 Model::Lambertian => push(
@@ -122,7 +142,7 @@ impl Tracer<'_> {
                     &workspace.flights,
                     i,
                     hit.place,
-                    &side.reflectance,
+                    &reflectance,
                     std::f32::consts::FRAC_1_PI,
                 ),
                 Model::Mirror => {
@@ -131,7 +151,7 @@ impl Tracer<'_> {
                         &workspace.flights,
                         i,
                         hit.place,
-                        &side.reflectance,
+                        &reflectance,
                         1.0,
                     );
                     for (column, axis) in workspace.viewer.iter_mut().zip(hit.viewer) {
@@ -142,8 +162,33 @@ impl Tracer<'_> {
         }
     }
 
-    fn escape(&self, flights: &Flights, i: usize, gathered: &mut [f32]) {
-        for (group, radiance) in &self.tables.environment {
+    /// Follows the flights that surfaces let pass until they meet one that does not.
+    fn pass_on(&self, workspace: &mut Workspace, candidates: Candidates) {
+        while workspace.passing.len() > 0 {
+            std::mem::swap(&mut workspace.flights, &mut workspace.passing);
+            workspace.passing.clear();
+            workspace.watch.times.rays += workspace.flights.len() as u64;
+            let surfaces = self.tables.scene.surfaces();
+            surfaces.closest(&workspace.flights.rays, &mut workspace.hits, self.set);
+            workspace.watch.lap(Stage::Closest);
+            self.arrive(workspace, candidates);
+            workspace.watch.lap(Stage::Arrive);
+        }
+    }
+
+    /// Whether a path goes through a side, with probability 1 − α.
+    fn passes(&self, flights: &Flights, i: usize, side: &Side, hit: &Hit) -> bool {
+        let opacity = self.tables.opacity(side, || self.tables.site(hit));
+        let (_, key, index) = flights.identity.at(i);
+        // The numbers for the next light differ from segment to segment.
+        let segment = flights.travelled[i].to_bits() ^ hash::mix_32(flights.light_u[i].to_bits());
+        let place = hash::mix_32(hit.primitive ^ hash::mix_32(segment));
+        opacity.is_some_and(|opacity| scatter::number_at(key, index, place) >= opacity)
+    }
+
+    fn escape(&self, flights: &Flights, i: usize, wavelengths: &Wavelengths, gathered: &mut [f32]) {
+        for (group, radiance, tint) in &self.tables.environment {
+            let radiance = self.tables.environment(radiance, *tint, wavelengths);
             self.add(gathered, *group, flights.identity.slot[i], |lane| {
                 flights.throughput[lane][i] * radiance[lane]
             });

@@ -6,6 +6,7 @@
 use std::time::{Duration, Instant};
 
 use super::camera::CameraSampler;
+use super::channels;
 use super::columns::{BATCH, Workspace};
 use super::path::Tracer;
 use super::run::{RenderOptions, SimulationError, camera_of};
@@ -106,7 +107,11 @@ pub fn profile(
         max_depth,
         merge_groups: true,
     };
-    let sampler = CameraSampler::new(tracer, camera);
+    let sampler = CameraSampler::new(
+        tracer,
+        camera,
+        channels::density(scene, &scene.sensors()[sensor]),
+    );
     let mut paths = Workspace::default();
     let mut out = [[0.0; 4]; BATCH];
     let keys = [options.plan.seed; BATCH];

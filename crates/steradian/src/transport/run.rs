@@ -5,6 +5,7 @@ use steradian_kernel::InstructionSet;
 use thiserror::Error;
 
 use super::camera::CameraSampler;
+use super::channels;
 use super::measure::{Meters, streams};
 use super::meters::{self, Prepared};
 use super::path::Tracer;
@@ -14,7 +15,7 @@ use crate::estimation::film::{Exposure, Film, Filter, PASSES, expose};
 use crate::estimation::{EstimationError, Observer, Plan, Replicates, Stopping, estimate};
 use crate::measurement::{LaneRecord, Measurements, PointRecord, SensorRecord};
 use crate::sampling::hash;
-use crate::scene::Scene;
+use crate::scene::{CAMERA_CHANNELS, Scene};
 use crate::sensor::{Camera, Kind, Readout, Sensor};
 
 /// How a scene is measured.
@@ -150,7 +151,8 @@ pub fn render(
         max_depth,
         merge_groups: true,
     };
-    let sampler = CameraSampler::new(tracer, &camera.with_resolution(resolution));
+    let density = channels::density(scene, sensor);
+    let sampler = CameraSampler::new(tracer, &camera.with_resolution(resolution), density);
     let exposure = expose(
         &sampler,
         &film(scene, sensor, resolution, options.filter),
@@ -164,7 +166,7 @@ pub fn render(
         luminous_efficacy: scene.reported_efficacy(),
         max_depth: options.max_depth,
         exposure,
-        lanes: scene.lanes().names().to_vec(),
+        lanes: camera_channels(scene),
         readouts: sensor.readouts.clone(),
         unsampled: unsampled(scene),
         warnings: scene.warnings().to_vec(),
@@ -187,6 +189,15 @@ pub(super) fn camera_of(scene: &Scene, sensor: usize) -> Result<&Camera, Simulat
         Ok(camera)
     } else {
         Err(wrong())
+    }
+}
+
+/// Names of the channels of a picture.
+fn camera_channels(scene: &Scene) -> Vec<String> {
+    if scene.lanes().is_spectral() {
+        CAMERA_CHANNELS.map(String::from).to_vec()
+    } else {
+        scene.lanes().names().to_vec()
     }
 }
 
@@ -227,12 +238,16 @@ pub fn measure(
         .map(|sensor| scalar_weights(scene, readouts(sensor)))
         .collect();
     let streams = streams(scene, &mut prepared, &weights);
+    let densities = chosen
+        .iter()
+        .filter_map(|sensor| channels::density(scene, &scene.sensors()[*sensor]))
+        .collect();
     let replicates = if streams.is_empty() {
         options.plan.check()?;
         vec![]
     } else {
         estimate(
-            &Meters::new(&tables, options, streams, weights),
+            &Meters::new(&tables, options, streams, weights, densities),
             &options.plan,
             observer,
         )?

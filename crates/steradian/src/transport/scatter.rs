@@ -210,6 +210,12 @@ fn survival_probability(throughput: f32, segment: u32) -> f32 {
 /// A uniform number in [0, 1) that depends on the path and the segment only.
 #[inline(always)]
 fn roulette_number(key: u64, index: u32, segment: u32) -> f32 {
+    number_at(key, index, segment)
+}
+
+/// A uniform number in [0, 1) that depends on the path and on this number of a place only.
+#[inline(always)]
+pub(super) fn number_at(key: u64, index: u32, segment: u32) -> f32 {
     let path = hash::mix_32((key as u32) ^ hash::mix_32((key >> 32) as u32 ^ index));
     let word = hash::mix_32(path ^ segment.wrapping_mul(0x9e37_79b9));
     (word >> 8) as i32 as f32 * (1.0 / (1 << 24) as f32)

@@ -160,20 +160,28 @@ fn triangle_point(
     cumulative: &[f32],
     u: [f32; 2],
 ) -> Option<(Vec3, Vec3)> {
-    let index = cumulative
-        .partition_point(|share| *share <= u[0])
-        .min(cumulative.len().checked_sub(1)?);
-    let before = if index == 0 {
-        0.0
-    } else {
-        cumulative[index - 1]
-    };
-    let within = ((u[0] - before) / (cumulative[index] - before)).clamp(0.0, 1.0);
+    if cumulative.is_empty() {
+        return None;
+    }
+    let (index, within) = triangle_of(cumulative, u[0]);
     let record = &tables.scene.surfaces().triangles()[first as usize + index];
     let [a, b] = record.edges.map(Vec3::from_array);
     let root = within.sqrt();
     let point = Vec3::from_array(record.origin) + a * (1.0 - root) + b * (u[1] * root);
     Some((point, Vec3::from_array(record.normal)))
+}
+
+/// The triangle that a number chooses by area, and what is left of the number.
+pub(super) fn triangle_of(cumulative: &[f32], u: f32) -> (usize, f32) {
+    let last = cumulative.len() - 1;
+    let index = cumulative.partition_point(|share| *share <= u).min(last);
+    let before = if index == 0 {
+        0.0
+    } else {
+        cumulative[index - 1]
+    };
+    let within = ((u - before) / (cumulative[index] - before)).clamp(0.0, 1.0);
+    (index, within)
 }
 
 fn towards_sphere(emitter: &Emitter, vertex: Vec3, u: [f32; 2]) -> Option<Towards> {

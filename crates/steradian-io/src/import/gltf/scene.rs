@@ -249,6 +249,7 @@ impl Builder<'_> {
         self.description.sensors.push(SensorDescription {
             name: self.cameras.unique(name.unwrap_or("camera")),
             response: None,
+            bins: None,
             kind: SensorKind::Camera(read),
         });
         Ok(())

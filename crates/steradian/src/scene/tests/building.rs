@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::material::{Material, MaterialId};
+use crate::material::Model;
 use crate::sensor::{Kind as Sensing, Receiver};
 use crate::shape::Form;
 
@@ -222,17 +222,17 @@ fn materials_of_front_and_back() {
     let sides = |shape: u32| {
         let part = scene.surfaces().shape(ShapeId(shape)).parts[0];
         let part = scene.parts()[part.0 as usize];
-        [part.front, part.back].map(|id| scene.material(id))
+        [part.front, part.back].map(|id| &scene.material(id).model)
     };
     assert!(matches!(
         sides(0),
-        [Material::Mirror { .. }, Material::Lambertian { .. }]
+        [Model::Mirror { .. }, Model::Lambertian { .. }]
     ));
     assert!(matches!(
         sides(1),
-        [Material::Lambertian { .. }, Material::Lambertian { .. }]
+        [Model::Lambertian { .. }, Model::Lambertian { .. }]
     ));
-    assert_eq!(sides(2), [scene.material(MaterialId::BLACK); 2]);
+    assert_eq!(sides(2), [&Model::Black; 2]);
 }
 
 fn receivers(scene: &Scene, sensor: usize) -> &[Receiver] {

@@ -116,6 +116,7 @@ fn sensor(name: &str, kind: SensorKind) -> SensorDescription {
     SensorDescription {
         name: name.into(),
         response: None,
+        bins: None,
         kind,
     }
 }

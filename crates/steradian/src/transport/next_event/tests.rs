@@ -105,6 +105,7 @@ fn every_light() -> Scene {
         sensors: vec![SensorDescription {
             name: "any".into(),
             response: None,
+            bins: None,
             kind: SensorKind::ScalarIrradiance {
                 points: vec![Point::new(9.0, 9.0, 9.0)],
             },

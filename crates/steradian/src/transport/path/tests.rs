@@ -7,7 +7,7 @@ use glam::Vec3;
 use crate::brdf::{Brdf, Scatter};
 use crate::geometry::{Direction, Frame, Point, Transform, Vector};
 use crate::light::Kind;
-use crate::quantity::{Amount, Intensity};
+use crate::quantity::{Amount, Intensity, Spectrum};
 use crate::sampling::testing::assert_mean;
 use crate::scene::Scene;
 use crate::scene::description::*;
@@ -42,6 +42,7 @@ fn floor(material: MaterialModel) -> Scene {
     let meter = SensorDescription {
         name: "meter".into(),
         response: None,
+        bins: None,
         kind: SensorKind::ScalarIrradiance {
             points: vec![Point::new(0.0, 0.0, 1.0)],
         },
@@ -66,7 +67,10 @@ fn matt() -> Scene {
 
 fn brdf(scene: &Scene) -> Brdf {
     let material = scene.material(scene.parts()[0].front);
-    material.brdf_at().unwrap()
+    let tint = material.reflectance().unwrap();
+    material
+        .brdf_at(Spectrum::from_lanes(tint.hue.lanes))
+        .unwrap()
 }
 
 /// Slanting rays that meet the floor, with a throughput of one.

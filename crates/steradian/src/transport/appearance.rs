@@ -1,0 +1,143 @@
+//! What sides look like to a path: reflectance, emission and opacity at a point, at the path's wavelengths.
+
+use super::interaction::Hit;
+use super::tables::{Emitter, EmitterShape, Lanes4, NO_TINT, Side, Tables};
+use super::towards::triangle_of;
+use crate::geometry::{Point, Vector};
+use crate::material::Site;
+use crate::shape::Form;
+use crate::spectrum::Wavelengths;
+
+impl Tables<'_> {
+    /// Lanes of a tint at a point, or `constant` where there is no tint.
+    #[inline(always)]
+    fn lanes_at(
+        &self,
+        tint: u32,
+        constant: &Lanes4,
+        wavelengths: &Wavelengths,
+        site: impl FnOnce() -> Site,
+    ) -> Lanes4 {
+        if tint == NO_TINT {
+            return *constant;
+        }
+        let tint = &self.tints[tint as usize];
+        if tint.textures.is_empty() {
+            return self.colors.hue(&tint.hue, wavelengths);
+        }
+        self.colors.tint(tint, &site(), wavelengths)
+    }
+
+    /// Reflectance of a side.
+    #[inline(always)]
+    pub fn reflectance(
+        &self,
+        side: &Side,
+        wavelengths: &Wavelengths,
+        site: impl FnOnce() -> Site,
+    ) -> Lanes4 {
+        self.lanes_at(side.reflectance_tint, &side.reflectance, wavelengths, site)
+    }
+
+    /// Radiance that a side emits.
+    #[inline(always)]
+    pub fn radiance(
+        &self,
+        side: &Side,
+        wavelengths: &Wavelengths,
+        site: impl FnOnce() -> Site,
+    ) -> Lanes4 {
+        self.lanes_at(side.radiance_tint, &side.radiance, wavelengths, site)
+    }
+
+    /// Radiance of an environment.
+    pub fn environment(&self, radiance: &Lanes4, tint: u32, wavelengths: &Wavelengths) -> Lanes4 {
+        let nowhere = || Site {
+            coordinates: [0.0; 2],
+            color: [1.0; 4],
+        };
+        self.lanes_at(tint, radiance, wavelengths, nowhere)
+    }
+
+    /// Intensity, irradiance or radiance of an emitter, by kind.
+    #[inline(always)]
+    pub fn power(
+        &self,
+        emitter: &Emitter,
+        wavelengths: &Wavelengths,
+        site: impl FnOnce() -> Site,
+    ) -> Lanes4 {
+        self.lanes_at(emitter.tint, &emitter.power, wavelengths, site)
+    }
+
+    /// The part of the light that a side stops; `None` for all of it.
+    #[inline(always)]
+    pub fn opacity(&self, side: &Side, site: impl FnOnce() -> Site) -> Option<f32> {
+        let opacity = self.opacities.get(side.opacity as usize)?;
+        Some(opacity.at(&site()))
+    }
+
+    /// What a surface knows of a point that a ray met.
+    pub fn site(&self, hit: &Hit) -> Site {
+        let surfaces = self.scene.surfaces();
+        let (shape, face) = surfaces.face_of(hit.primitive);
+        let point = surfaces.origin() + Vector::from(hit.place.point.map(f64::from));
+        site_of(&surfaces.shape(shape).form, face, hit.weights, point)
+    }
+
+    /// The same for the point of an emitter that these numbers chose; `end` is near it.
+    pub fn site_of_sample(&self, emitter: &Emitter, u: [f32; 2], end: [f32; 3]) -> Site {
+        let surfaces = self.scene.surfaces();
+        let Some(shape) = emitter.surface else {
+            return Site {
+                coordinates: [0.0; 2],
+                color: [1.0; 4],
+            };
+        };
+        let form = &surfaces.shape(shape).form;
+        let point = surfaces.origin() + Vector::from(end.map(f64::from));
+        match &emitter.shape {
+            EmitterShape::Triangles { cumulative, .. } => {
+                let (face, within) = triangle_of(cumulative, u[0]);
+                let root = within.sqrt();
+                site_of(form, face, [1.0 - root, u[1] * root], point)
+            }
+            // Weights of the first triangle, which continue over the second.
+            EmitterShape::Parallelogram { .. } => site_of(form, 0, [u[0] - u[1], u[1]], point),
+            _ => site_of(form, 0, [0.0; 2], point),
+        }
+    }
+}
+
+fn site_of(form: &Form, face: usize, weights: [f32; 2], point: Point) -> Site {
+    Site {
+        coordinates: form.coordinates(face, weights, point),
+        color: form.color(face, weights),
+    }
+}
+
+/// What a form knows of a point on one of its faces.
+pub(super) fn site_at(form: &Form, face: usize, point: Point) -> Site {
+    let weights = match form {
+        Form::Mesh(mesh) => {
+            let [a, b, c] = mesh.corners(face);
+            weights_in([b - a, c - a], point - a)
+        }
+        // The first triangle is spanned by the first edge and the diagonal.
+        Form::Parallelogram(form) => {
+            let [first, second] = form.edges;
+            weights_in([first, first + second], point - form.origin)
+        }
+        _ => [0.0; 2],
+    };
+    site_of(form, face, weights, point)
+}
+
+/// s and t of the vector s·a + t·b nearest to `p`.
+fn weights_in([a, b]: [Vector; 2], p: Vector) -> [f32; 2] {
+    let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
+    let (pa, pb) = (p.dot(a), p.dot(b));
+    let determinant = aa * bb - ab * ab;
+    let (s, t) = (pa * bb - pb * ab, pb * aa - pa * ab);
+    [(s / determinant) as f32, (t / determinant) as f32]
+}
