@@ -175,7 +175,11 @@ up = "y"
 material = "grey"
 [[lights]]
 kind = "environment"
-radiance = "318.3098861837907 cd/m2"
+radiance = "159.15494309189535 cd/m2"
+[[lights]]
+kind = "directional"
+direction = [0.5, 0.6, -1.2]
+irradiance = "1000 lx"
 [[sensors]]
 kind = "camera"
 name = "camera"
