@@ -61,8 +61,12 @@ pub(super) enum Value {
     Displacement,
     /// A point and a direction in one array of six.
     PointAndDirection,
-    /// A number for each lane of a spectrum.
+    /// A number for each lane of a spectrum, or for each wavelength.
     Lanes,
+    /// First and last wavelength.
+    Wavelengths,
+    /// First and last wavelength and a step.
+    Intervals,
     Choice(&'static [&'static str]),
     Array(&'static Value, usize),
     List(&'static Value),
@@ -239,7 +243,11 @@ impl Value {
             Self::Direction => "three numbers such as [0, 0, 1]".into(),
             Self::Displacement => "a vector of three lengths such as [2, 0, 0] in metres".into(),
             Self::PointAndDirection => "a point and a direction: [x, y, z, dx, dy, dz]".into(),
-            Self::Lanes => "a number, \"#rrggbb\", [r, g, b] or a table of bands".into(),
+            Self::Lanes => {
+                "a number, \"#rrggbb\", [r, g, b], a table of bands, [[nm, value], …] or { file, column }".into()
+            }
+            Self::Wavelengths => "two wavelengths such as \"380:780 nm\"".into(),
+            Self::Intervals => "two wavelengths and a step such as \"400:700:10 nm\"".into(),
             Self::Choice(names) => describe_choice(names),
             Self::Array(value, count) => format!("an array of {count}: {}", value.describe()),
             Self::List(value) => format!("a list, each {}", value.describe()),

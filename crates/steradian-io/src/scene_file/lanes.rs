@@ -2,11 +2,14 @@
 
 use steradian::material::linear_from_srgb;
 use steradian::scene::description::{LaneValues, SpectrumMode};
+use steradian::spectrum::{Beyond, VISIBLE};
 use toml::de::{DeTable, DeValue};
 
+use super::fields::Fields;
 use super::keys::Value;
 use super::node::{Node, in_file_order};
-use super::tables::{BANDS, SPECTRUM, SPECTRUM_NAMES};
+use super::spectrum::{self, Wavelengths, inline};
+use super::tables::{MODE, SPECTRUM, SPECTRUM_NAMES};
 use super::value::{Read, choice};
 
 impl Read for LaneValues {
@@ -17,10 +20,10 @@ impl Read for LaneValues {
             DeValue::Integer(_) | DeValue::Float(_) => f64::read(node).map(Self::Uniform),
             DeValue::String(code) => colour(code).or_else(|| not_lanes(node)),
             DeValue::Array(array) if array.iter().any(|element| element.get_ref().is_array()) => {
-                tabulated(node)
+                inline(node, Beyond::Held).map(Self::table)
             }
             DeValue::Array(array) if array.len() == 3 => <[f64; 3]>::read(node).map(Self::Rgb),
-            DeValue::Table(table) if table.contains_key("file") => tabulated(node),
+            DeValue::Table(table) if table.contains_key("file") => spectrum::reflectance(node),
             DeValue::Table(table) => bands(node, table),
             _ => not_lanes(node),
         }
@@ -29,15 +32,6 @@ impl Read for LaneValues {
 
 fn not_lanes(node: Node<'_>) -> Option<LaneValues> {
     node.expected(&Value::Lanes.describe());
-    None
-}
-
-fn tabulated(node: Node<'_>) -> Option<LaneValues> {
-    node.context.error(
-        node.range(),
-        "tabulated spectra are not supported yet",
-        None,
-    );
     None
 }
 
@@ -74,22 +68,24 @@ impl Read for SpectrumMode {
 
     fn read(node: Node<'_>) -> Option<Self> {
         if node.toml.is_table() {
-            let bands = node.record(&BANDS)?.get("bands")?;
-            return Some(Self::Broadband { bands });
-        }
-        if node.toml.as_str() == Some("spectral") {
-            node.context.error(
-                node.range(),
-                "spectrum \"spectral\" is not supported yet",
-                None,
-            );
-            return None;
+            return mode(&node.record(&MODE)?);
         }
         match choice(node, SPECTRUM_NAMES)? {
             "rgb" => Some(Self::Rgb),
+            "spectral" => Some(Self::Spectral { range: VISIBLE }),
             _ => Some(Self::default()),
         }
     }
+}
+
+/// Bands by name, or wavelengths.
+fn mode(fields: &Fields<'_>) -> Option<SpectrumMode> {
+    if fields.has("range") {
+        let Wavelengths(range) = fields.get("range")?;
+        return Some(SpectrumMode::Spectral { range });
+    }
+    let bands = fields.get("bands")?;
+    Some(SpectrumMode::Broadband { bands })
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use super::fields::Fields;
 use super::keys::Value;
 use super::node::Node;
 use super::placement;
+use super::spectrum::LightSpectrum;
 use super::tables::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
 use super::value::{Read, choice};
 
@@ -23,6 +24,7 @@ pub(super) fn read(node: Node<'_>) -> Option<LightDescription> {
     };
     let (name, group) = (fields.get("name"), fields.get("group"));
     let (spectrum, repeat) = (fields.get("spectrum"), placement::repeat(&fields));
+    let spectrum = spectrum.map(|LightSpectrum(spectrum)| spectrum);
     Some(LightDescription {
         name,
         group,

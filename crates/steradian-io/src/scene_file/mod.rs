@@ -40,6 +40,7 @@ mod sections;
 mod sensor;
 mod shape;
 mod source_map;
+mod spectrum;
 mod tables;
 mod texture;
 mod up;

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::keys::{Family, Form, Key, Need, Record, Value};
-use super::tables::SECTIONS;
+use super::tables::{SECTIONS, TABLE};
 
 /// The schema of a scene file.
 pub fn schema() -> Json {
@@ -131,7 +131,12 @@ impl Definitions {
                 self.reference("direction", |_| array(&json!({ "type": "number" }), 3))
             }
             Value::PointAndDirection => self.reference("ray", |_| ray()),
-            Value::Lanes => self.reference("lanes", |_| lanes()),
+            Value::Lanes => {
+                let table = self.value(&Value::Table(&TABLE));
+                self.reference("lanes", |_| lanes(table))
+            }
+            Value::Wavelengths => intervals(2),
+            Value::Intervals => intervals(3),
             Value::Choice(names) => json!({ "enum": names }),
             Value::Array(inner, count) => array(&self.value(inner), *count),
             Value::List(inner) => json!({ "type": "array", "items": self.value(inner) }),
@@ -241,11 +246,19 @@ fn ray() -> Json {
     })
 }
 
-fn lanes() -> Json {
+/// Numbers parted by colons, in nm.
+fn intervals(count: usize) -> Json {
+    let numbers = vec![r" *[0-9.eE+-]+ *"; count].join(":");
+    json!({ "type": "string", "pattern": format!("^{numbers} *nm *$") })
+}
+
+fn lanes(table: Json) -> Json {
     json!({ "anyOf": [
         { "type": "number" },
         { "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" },
         array(&json!({ "type": "number" }), 3),
+        { "type": "array", "items": array(&json!({ "type": "number" }), 2) },
+        table,
         { "type": "object", "additionalProperties": { "type": "number" } },
     ] })
 }

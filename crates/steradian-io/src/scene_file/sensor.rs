@@ -1,20 +1,23 @@
 //! `[[sensors]]`: what is measured.
 
+use std::sync::Arc;
+
 use steradian::geometry::{Point, Transform, Vector};
 use steradian::quantity::Length;
 use steradian::scene::description::{
-    CameraDescription, Fisheye, FluxOf, FluxSurface, Projection, Receivers, Response,
+    Bins, CameraDescription, Fisheye, FluxOf, FluxSurface, Projection, Receivers, Response,
     SensorDescription, SensorKind, Side,
 };
+use steradian::spectrum::Beyond;
 
 use super::fields::Fields;
 use super::keys::Value;
 use super::node::Node;
-use super::tables::{GRID, PROJECTION_NAMES, SENSORS, SURFACES};
+use super::spectrum::{self, Intervals};
+use super::tables::{GRID, PROJECTION_NAMES, RESPONSE, RESPONSE_NAMES, SENSORS, SURFACES, TABLE};
 use super::value::{Read, Towards, choice, choices};
 use super::{placement, shape};
 
-choices! { Response, "auto" => Self::Auto, "radiant" => Self::Radiant, "photopic" => Self::Photopic }
 choices! { Side, "front" => Self::Front, "back" => Self::Back }
 choices! {
     FluxOf,
@@ -36,13 +39,56 @@ pub(super) fn read(node: Node<'_>) -> Option<SensorDescription> {
         }
         _ => camera(&fields).map(SensorKind::Camera),
     };
-    let response = response(name, &fields);
+    let (response, bins) = (response(name, &fields), bins(&fields));
     let name = fields.get("name");
     Some(SensorDescription {
         name: name?,
         response,
-        bins: None,
+        bins,
         kind: kind?,
+    })
+}
+
+fn bins(fields: &Fields<'_>) -> Option<Bins> {
+    let (intervals, per_nm) = (fields.get("bins"), fields.get("per_nm"));
+    let Intervals([low, high, width]) = intervals?;
+    Some(Bins {
+        range: [low, high],
+        width,
+        per_nm: per_nm?,
+    })
+}
+
+impl Read for Response {
+    const VALUE: Value = RESPONSE;
+
+    fn read(node: Node<'_>) -> Option<Self> {
+        if node.toml.is_table() {
+            return weights(&node.record(&TABLE)?);
+        }
+        Some(match choice(node, RESPONSE_NAMES)? {
+            "radiant" => Self::Radiant,
+            "photopic" => Self::Photopic,
+            "scotopic" => Self::Scotopic,
+            "xyz" => Self::Xyz,
+            "par" => Self::Par,
+            "melanopic" => Self::Melanopic,
+            _ => Self::Auto,
+        })
+    }
+}
+
+/// The response in a file, called after it.
+fn weights(fields: &Fields<'_>) -> Option<Response> {
+    let curve = spectrum::from_file(fields, Beyond::Zero)?;
+    let (file, column): (String, Option<String>) = (fields.get("file")?, fields.get("column"));
+    Some(Response::Table {
+        name: [Some(file), column]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(" "),
+        curve: Arc::new(curve),
     })
 }
 

@@ -14,6 +14,7 @@ use super::keys::Value;
 use super::mesh::{self, Surface};
 use super::node::Node;
 use super::placement;
+use super::spectrum::LightSpectrum;
 use super::tables::{EMISSION, FACE_NAMES, FACES, OPENING, PORT, SHAPES};
 use super::texture::EmissionPattern;
 use super::up::UpAxis;
@@ -204,6 +205,7 @@ impl Read for EmissionDescription {
         let (amount, two_sided) = (amount(&fields), fields.get("two_sided"));
         let (spectrum, group) = (fields.get("spectrum"), fields.get("group"));
         let texture = fields.get::<EmissionPattern>("texture");
+        let spectrum = spectrum.map(|LightSpectrum(spectrum)| spectrum);
         Some(Self {
             amount: amount?,
             spectrum,

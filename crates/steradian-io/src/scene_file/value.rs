@@ -111,7 +111,10 @@ fn whole_number(integer: &DeInteger<'_>) -> Option<i64> {
 }
 
 /// Reads text with a unit; a bare number is refused with the units that are accepted.
-fn quantity<T: FromStr<Err = ParseQuantityError>>(node: Node<'_>, value: &Value) -> Option<T> {
+pub(super) fn quantity<T: FromStr<Err = ParseQuantityError>>(
+    node: Node<'_>,
+    value: &Value,
+) -> Option<T> {
     let text = match node.toml {
         DeValue::String(text) => text.to_string(),
         DeValue::Integer(number) => number.to_string(),

@@ -7,6 +7,7 @@ mod problems;
 mod reading;
 mod scenes;
 mod textures;
+mod spectra;
 mod validation;
 
 use steradian::scene::description::SceneDescription;
@@ -20,10 +21,14 @@ const TRIANGLE: &str = "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nf 1 2 3\n";
 /// A picture of one texel, (128 + ½)/256 in all channels.
 const HALF: &[u8] = b"#?RADIANCE\n\n-Y 1 +X 1\n\x80\x80\x80\x80";
 
+/// The spectrum of a lamp.
+const LAMP: &str = "nm,new,old\n400,0.1,0\n700,0.9,0.8\n";
+
 fn files() -> MemoryFiles {
     MemoryFiles::default()
         .with("parts/triangle.obj", TRIANGLE)
         .with("parts/half.hdr", HALF)
+        .with("parts/lamp.csv", LAMP)
         .with("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n")
 }
 

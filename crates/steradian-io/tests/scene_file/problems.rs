@@ -219,7 +219,7 @@ fn types_and_lengths_of_arrays() {
         "= 0.5",
         "= \"red\"",
         "\"red\"",
-        "expected a number, \"#rrggbb\", [r, g, b] or a table of bands",
+        "expected a number, \"#rrggbb\", [r, g, b], a table of bands, [[nm, value], …] or { file, column }",
     );
     one_problem(
         "= 0.5",
@@ -305,34 +305,10 @@ fn what_is_planned_is_not_unknown() {
         one_problem(good, planned, planned, "is not supported yet");
     }
     one_problem(
-        "name = \"Good\"",
-        "spectrum = \"spectral\"",
-        "\"spectral\"",
-        "is not supported yet",
-    );
-    one_problem(
-        "name = \"points\"",
-        "name = \"points\"\nbins = \"400:700:10 nm\"",
-        "bins",
-        "is not supported yet",
-    );
-    one_problem(
         "cutoff",
         "schedule = \"x\"\ncutoff",
         "schedule",
         "is not supported yet",
-    );
-    one_problem(
-        "= 0.5",
-        "= { file = \"white.csv\" }",
-        "{ file = \"white.csv\" }",
-        "tabulated spectra are not supported yet",
-    );
-    one_problem(
-        "= 0.5",
-        "= [[400, 0.5]]",
-        "[[400, 0.5]]",
-        "tabulated spectra are not supported yet",
     );
     one_problem(
         "[scene]",

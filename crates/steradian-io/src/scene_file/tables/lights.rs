@@ -5,6 +5,7 @@ use steradian::quantity::{
     LuminousIntensity, Radiance,
 };
 
+use super::LIGHT_SPECTRUM;
 use super::shapes::REPEAT_KEY;
 use crate::scene_file::keys::{Family, Key, Kind, Record, Value};
 use crate::scene_file::value::Read;
@@ -104,7 +105,7 @@ pub const LIGHTS: Family = Family {
         ),
         Key::optional(
             "spectrum",
-            Value::Lanes,
+            LIGHT_SPECTRUM,
             "Shape of the spectrum; white unless given",
         ),
         Key::not_yet("schedule"),

@@ -7,6 +7,7 @@ mod lights;
 mod sensors;
 mod shapes;
 mod textures;
+mod spectra;
 
 use steradian::quantity::LuminousEfficacy;
 use steradian::scene::description::Response;
@@ -20,6 +21,10 @@ pub use sensors::{GRID, PROJECTION_NAMES, SENSORS};
 pub use shapes::{
     EMISSION, FACE_NAMES, FACES, OPENING, PORT, REPEAT, SCALE, SHAPES, SURFACES, TRANSFORM_STEP,
 };
+pub use spectra::{
+    BLACKBODY_RANGE, BLACKBODY_STEP, ILLUMINANT_NAMES, LIGHT_SHAPE, LIGHT_SPECTRUM, MODE, RESPONSE,
+    RESPONSE_NAMES, SPECTRUM, SPECTRUM_NAMES, TABLE,
+};
 
 pub use textures::{
     CHECKERBOARD, EMISSION_CHECKERBOARD, EMISSION_PATTERN, EMISSION_TEXTURE, EMISSION_VERTEX_COLOR,
@@ -30,9 +35,6 @@ const MATERIAL: Value = Value::Name("material");
 const SHAPE: Value = Value::Name("shape");
 const POINTS: Value = Value::List(&Value::Point);
 const EDGES: Value = Value::Array(&Value::Displacement, 2);
-
-pub const SPECTRUM_NAMES: &[&str] = &["broadband", "rgb"];
-pub const SPECTRUM: Value = Value::Either(&[Value::Choice(SPECTRUM_NAMES), Value::Table(&BANDS)]);
 
 /// Every section.
 pub const SECTIONS: &[Section] = &[
@@ -96,15 +98,6 @@ pub const SCENE: Record = Record {
             "Luminous efficacy K that links watts and lumens",
         ),
     ],
-};
-
-pub const BANDS: Record = Record {
-    noun: "a spectrum",
-    keys: &[Key::required(
-        "bands",
-        Value::List(&Value::Text),
-        "Names of one to four bands; `visible` is the one that lumens belong to",
-    )],
 };
 
 pub const MATERIALS: Family = Family {

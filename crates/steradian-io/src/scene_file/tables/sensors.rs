@@ -145,7 +145,18 @@ pub const SENSORS: Family = Family {
             Response::VALUE,
             "What it reports, if not what the scene says",
         ),
-        Key::not_yet("bins"),
+        Key::optional(
+            "bins",
+            Value::Intervals,
+            "Intervals of wavelength that are read one by one",
+        ),
+        Key::default(
+            "per_nm",
+            Value::Flag,
+            "false",
+            "Mean per nm in each interval, instead of the total",
+        )
+        .beside("bins"),
     ],
 };
 

@@ -4,7 +4,7 @@ use steradian::quantity::{
     Amount, Angle, Exitance, Flux, Length, Luminance, LuminousExitance, LuminousFlux, Radiance,
 };
 
-use super::{EDGES, EMISSION_PATTERN, MATERIAL, POINTS};
+use super::{EDGES, EMISSION_PATTERN, LIGHT_SPECTRUM, MATERIAL, POINTS};
 use crate::scene_file::keys::{Family, Key, Kind, Record, Value};
 use crate::scene_file::up::UpAxis;
 use crate::scene_file::value::Read;
@@ -277,7 +277,7 @@ pub const EMISSION: Record = Record {
         ),
         Key::optional(
             "spectrum",
-            Value::Lanes,
+            LIGHT_SPECTRUM,
             "Shape of the spectrum; white unless given",
         ),
         Key::optional(
