@@ -181,5 +181,24 @@ fn counts_without_bytes_are_bounded() {
         "accessors": [{ "componentType": 5126, "count": 4_000_000_000_u32, "type": "VEC3" }],
         "meshes": [{ "primitives": [primitive] }], "nodes": [{ "mesh": 0 }],
     });
-    assert!(refusal(entries, &buffer).contains("too many"));
+    let says = "more than 1048576 elements in a file of this size";
+    assert_eq!(refusal(entries, &buffer), says);
+}
+
+#[test]
+fn elements_named_again_and_again_are_bounded() {
+    let mut buffer = Buffer::default();
+    let corners: Vec<[f32; 3]> = (0..999)
+        .map(|i| [(i % 3) as f32, (i % 2) as f32, 0.0])
+        .collect();
+    let positions = buffer.floats(&corners);
+    let primitives: Vec<_> = (0..2000)
+        .map(|_| json!({ "attributes": { "POSITION": positions } }))
+        .collect();
+    let entries = json!({ "meshes": [{ "primitives": primitives }], "nodes": [{ "mesh": 0 }] });
+    // 2²⁰ + 4 · 999 · 12.
+    assert_eq!(
+        refusal(entries, &buffer),
+        "more than 1096528 elements in a file of this size"
+    );
 }

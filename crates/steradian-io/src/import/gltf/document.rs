@@ -1,6 +1,10 @@
 //! A glTF file with its buffers, and checked access to its parts.
+//!
+//! Parts may be named any number of times, so that a small file could ask for endless work. All elements that are read
+//! are counted, therefore, and may be 2²⁰ and four for each byte of the buffers.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::fmt::Display;
 
 use super::container::Container;
@@ -12,7 +16,15 @@ use super::uri::Resources;
 pub(super) struct Document<'a> {
     pub root: Root,
     buffers: Vec<Cow<'a, [u8]>>,
+    /// Elements read so far.
+    elements: Cell<usize>,
 }
+
+/// Elements that any file may have.
+const FREE_ELEMENTS: usize = 1 << 20;
+
+/// Elements that each byte may be read as.
+const ELEMENTS_A_BYTE: usize = 4;
 
 impl<'a> Document<'a> {
     /// Reads the JSON and all buffers.
@@ -25,7 +37,24 @@ impl<'a> Document<'a> {
         let buffers = (0..root.buffers.len())
             .map(|index| buffer(&root, index, container, resources))
             .collect::<Result<_, _>>()?;
-        Ok(Self { root, buffers })
+        let elements = Cell::new(0);
+        Ok(Self {
+            root,
+            buffers,
+            elements,
+        })
+    }
+
+    /// Counts elements that will be read, and refuses too many.
+    pub fn count(&self, elements: usize) -> Result<(), GltfError> {
+        let bytes: usize = self.buffers.iter().map(|buffer| buffer.len()).sum();
+        let limit = FREE_ELEMENTS + bytes.saturating_mul(ELEMENTS_A_BYTE);
+        let count = self.elements.get().saturating_add(elements);
+        self.elements.set(count);
+        let what = "elements in a file of this size";
+        (count <= limit)
+            .then_some(())
+            .ok_or(GltfError::TooLarge { what, limit })
     }
 
     /// The bytes of a buffer view that `place` names.

@@ -46,8 +46,8 @@ pub enum GltfError {
         /// What is wrong with it.
         source: ImageError,
     },
-    /// More than can be held.
-    #[error("more than {limit} {what} after instancing")]
+    /// More than can be held, or than so small a file can mean.
+    #[error("more than {limit} {what}")]
     TooLarge {
         /// Of what.
         what: &'static str,

@@ -30,9 +30,7 @@ pub(super) fn transforms(
     let given = [&translation, &rotation, &scale];
     let counts = given.into_iter().flatten().map(Elements::count);
     let count = counts.min().unwrap_or(0);
-    if count > MOST_SHAPES {
-        return Err(too_many());
-    }
+    document.count(count)?;
     let copy = |index| {
         let translation = at(&translation, index, [0.0; 3])?;
         let rotation = at(&rotation, index, [0.0, 0.0, 0.0, 1.0])?;

@@ -60,12 +60,14 @@ fn corners(
     place: &str,
 ) -> Result<Vec<u32>, GltfError> {
     let Some(index) = primitive.indices else {
+        document.count(vertices)?;
         let last = u32::try_from(vertices);
         let last = last.map_err(|_| GltfError::at(place, "it has too many vertices"))?;
         return Ok((0..last).collect());
     };
     let indices = Elements::new(document, index, &["SCALAR"], place)?;
     indices.check_indices()?;
+    document.count(indices.count())?;
     let corner = |at| {
         let [number] = indices.at::<1>(at)?;
         if number < vertices as f64 {

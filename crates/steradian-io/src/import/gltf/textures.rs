@@ -29,6 +29,9 @@ const NEAREST: u32 = 9728;
 const CLAMP_TO_EDGE: u32 = 33_071;
 const MIRRORED_REPEAT: u32 = 33_648;
 
+/// More texels than this, in all pictures together, are refused.
+const MOST_TEXELS: usize = 1 << 31;
+
 /// Picture, whether it is read between texels, and how it continues along u and v.
 type Key = (usize, bool, [u32; 2]);
 
@@ -37,6 +40,7 @@ pub(super) struct Textures<'d> {
     document: &'d Document<'d>,
     resources: &'d Resources<'d>,
     bitmaps: HashMap<Key, Arc<Bitmap>>,
+    texels: usize,
 }
 
 /// The set of texture coordinates that a texture is laid by.
@@ -52,6 +56,7 @@ impl<'d> Textures<'d> {
             document,
             resources,
             bitmaps: HashMap::new(),
+            texels: 0,
         }
     }
 
@@ -91,6 +96,11 @@ impl<'d> Textures<'d> {
             return Ok(Arc::clone(bitmap));
         }
         let mut bitmap = self.picture(source, &place)?;
+        self.texels += bitmap.texels().len();
+        if self.texels > MOST_TEXELS {
+            let (what, limit) = ("texels", MOST_TEXELS);
+            return Err(GltfError::TooLarge { what, limit });
+        }
         bitmap.wrap = key.2.map(wrap);
         bitmap.interpolation = if key.1 {
             Interpolation::Bilinear
