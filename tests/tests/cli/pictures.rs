@@ -69,3 +69,40 @@ fn merged_parts_are_the_whole() {
     steradian(&["merge", two, three, one, "-o", &merged]).fine();
     assert!(std::fs::read(merged).unwrap() == whole);
 }
+
+#[test]
+fn every_camera_and_filter_makes_a_picture() {
+    let folder = Folder::new();
+    let file = folder.path("a.pfm");
+    let cameras = [
+        ("perspective", "gaussian"),
+        ("lens", "box"),
+        ("plan", "blackman-harris"),
+        ("panorama", "gaussian"),
+        ("equidistant", "blackman-harris"),
+        ("equisolid", "box"),
+        ("hemispherical", "gaussian"),
+    ];
+    for (camera, filter) in cameras {
+        let chosen = ["--camera", camera, "--filter", filter, "-o", &file];
+        let arguments = [
+            &["render", "scenes/cameras.toml"],
+            SMALL.as_slice(),
+            &chosen,
+        ]
+        .concat();
+        steradian(&arguments).fine();
+        let bytes = std::fs::read(&file).unwrap();
+        let header = b"PF\n32 24\n-1.0\n";
+        assert!(bytes.starts_with(header), "{camera}");
+        let floats = bytes[header.len()..].chunks_exact(4);
+        let values: Vec<f32> = floats
+            .map(|four| f32::from_le_bytes(four.try_into().unwrap()))
+            .collect();
+        assert!(values.iter().all(|value| *value >= 0.0), "{camera}");
+        // The circle of diameter 24 and the reach of the filters leave the two sides of 32 × 24 pixels.
+        let lit = values.iter().filter(|value| **value > 0.0).count() as f64 / values.len() as f64;
+        let is_circle = ["equidistant", "equisolid", "hemispherical"].contains(&camera);
+        assert!(lit < 0.93 && is_circle || lit == 1.0, "{camera}: {lit}");
+    }
+}

@@ -8,11 +8,16 @@
 use super::Scene;
 use crate::geometry::Point;
 use crate::light::{Kind as LightKind, Light};
-use crate::sensor::{Camera, FluxSurface, Kind as SensorKind, Projection, Sensor};
+use crate::sensor::{Camera, FluxSurface, Kind as SensorKind, Projection, Receiver, Sensor};
 use crate::shape::{Enclosure, Form, ShapeId, Side};
 
-/// Points of one sensor or light beyond which the test is not made, as each is held against all of the surface.
-const MOST_POINTS: usize = 4096;
+/// Points beyond which a light or sensor with extent counts as its bounding box.
+const MOST_CORNERS: usize = 64;
+/// Pairs of a triangle and a point beyond which a shape is not asked, as each answer visits all triangles.
+const MOST_PAIRS: usize = 2_000_000;
+
+/// Points whose convex hull contains all places where something is; none if that is unknown.
+type Hull = Vec<Point>;
 
 /// A light that no sensor can see.
 #[derive(Copy, Clone, Debug, PartialEq, Eq)]
@@ -28,102 +33,132 @@ pub struct Unseen {
 impl Scene {
     /// The lights that no sensor can see, each with the first shape that hides it; none if any material lets light pass.
     pub fn unseen_lights(&self) -> Vec<Unseen> {
-        if !self.is_opaque || self.sensors.is_empty() {
+        if !self.is_opaque {
             return Vec::new();
         }
-        let mut unseen: Vec<Unseen> = Vec::new();
-        for (number, placed) in (0..).zip(self.surfaces().shapes()) {
-            let Some(enclosure) = Enclosure::of(&placed.form, self.surfaces().clearance()) else {
-                continue;
-            };
-            let hidden = self.hidden_by(ShapeId(number), &enclosure);
-            unseen.extend(
-                hidden
-                    .filter(|one| unseen.iter().all(|other| other.light != one.light))
-                    .collect::<Vec<_>>(),
-            );
-        }
+        let search = Search::new(self);
+        let shapes = (0..self.surfaces().shapes().len() as u32).map(ShapeId);
+        let mut unseen: Vec<Unseen> = shapes.flat_map(|shape| search.hidden_by(shape)).collect();
+        // The sort is stable, so that the first shape stays first.
         unseen.sort_by_key(|one| one.light);
+        unseen.dedup_by_key(|one| one.light);
         unseen
     }
+}
 
-    fn hidden_by<'a>(
-        &'a self,
-        shape: ShapeId,
-        enclosure: &'a Enclosure<'_>,
-    ) -> impl Iterator<Item = Unseen> + 'a {
-        let sensors = self.side_of_sensors(enclosure);
-        let lights = self.lights().iter().enumerate();
-        lights.filter_map(move |(light, description)| {
-            let side = self.side_of_light(enclosure, description)?;
-            (side != sensors?).then_some(Unseen { light, shape, side })
-        })
+/// Where the lights and sensors are.
+struct Search<'a> {
+    scene: &'a Scene,
+    /// Of each light; none for those that are infinitely far away.
+    lights: Vec<Option<Hull>>,
+    sensors: Vec<Hull>,
+    /// Points of all hulls.
+    points: usize,
+}
+
+impl<'a> Search<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let lights = scene.lights().iter().map(|light| place_of(scene, light));
+        let lights: Vec<_> = lights.collect();
+        let sensors = scene.sensors().iter();
+        let sensors: Vec<_> = sensors.flat_map(|sensor| hulls(scene, sensor)).collect();
+        let points = lights.iter().flatten().chain(&sensors).map(Vec::len).sum();
+        Self {
+            scene,
+            lights,
+            sensors,
+            points,
+        }
+    }
+
+    /// The lights that a shape hides from all sensors.
+    fn hidden_by(&self, shape: ShapeId) -> Vec<Unseen> {
+        let Some(enclosure) = self.enclosure(shape) else {
+            return Vec::new();
+        };
+        let Some(seeing) = self.side_of_sensors(&enclosure) else {
+            return Vec::new();
+        };
+        let side_of = |light: &Option<Hull>| match light {
+            Some(hull) => enclosure.side_of_hull(hull),
+            None => Some(Side::Outside),
+        };
+        let sides = self.lights.iter().map(side_of).enumerate();
+        let hidden = sides.filter_map(|(light, side)| {
+            let side = side.filter(|side| *side != seeing)?;
+            Some(Unseen { light, shape, side })
+        });
+        hidden.collect()
+    }
+
+    /// The enclosure that a shape is, if there may be anything inside.
+    fn enclosure(&self, shape: ShapeId) -> Option<Enclosure<'a>> {
+        let surfaces = self.scene.surfaces();
+        let form = &surfaces.shape(shape).form;
+        let bounds = form.bounds()?;
+        let is_within = |hull: &Hull| hull.first().is_some_and(|point| bounds.contains(*point));
+        let mut hulls = self.lights.iter().flatten().chain(&self.sensors);
+        let worth = match form {
+            Form::Mesh(mesh) => mesh.triangles.len() * self.points <= MOST_PAIRS,
+            _ => true,
+        };
+        (worth && hulls.any(is_within)).then(|| Enclosure::of(form, surfaces.clearance()))?
     }
 
     /// The side that all sensors are on.
     fn side_of_sensors(&self, enclosure: &Enclosure) -> Option<Side> {
-        let mut sides = self.sensors().iter().flat_map(|sensor| self.hulls(sensor));
-        let first = enclosure.side_of_hull(&sides.next()?)?;
-        sides
-            .all(|hull| enclosure.side_of_hull(&hull) == Some(first))
-            .then_some(first)
-    }
-
-    fn side_of_light(&self, enclosure: &Enclosure, light: &Light) -> Option<Side> {
-        match &light.kind {
-            LightKind::Point(point) => enclosure.side_of(point.position),
-            LightKind::Spot(spot) => enclosure.side_of(spot.position),
-            LightKind::Directional { .. } | LightKind::Environment { .. } => Some(Side::Outside),
-            LightKind::Area(area) => {
-                enclosure.side_of_hull(&corners(&self.surfaces().shape(area.shape).form)?)
-            }
-        }
-    }
-
-    /// Sets of points whose convex hulls contain all places where a sensor's rays start.
-    fn hulls(&self, sensor: &Sensor) -> Vec<Vec<Point>> {
-        let unknown = || vec![vec![]];
-        match &sensor.kind {
-            SensorKind::Irradiance(receivers) if receivers.len() <= MOST_POINTS => {
-                let off = 4.0 * self.surfaces().clearance();
-                let start = |receiver: &crate::sensor::Receiver| {
-                    vec![receiver.position + receiver.normal * off.max(receiver.clearance)]
-                };
-                receivers.iter().map(start).collect()
-            }
-            SensorKind::ScalarIrradiance(points) if points.len() <= MOST_POINTS => {
-                points.iter().map(|point| vec![*point]).collect()
-            }
-            SensorKind::Radiance(rays) if rays.len() <= MOST_POINTS => {
-                rays.iter().map(|ray| vec![ray.0]).collect()
-            }
-            SensorKind::Flux { surface, .. } => match surface {
-                FluxSurface::Virtual(form) => vec![corners(form).unwrap_or_default()],
-                FluxSurface::Shapes { shapes, .. } => {
-                    let form = |id: &ShapeId| corners(&self.surfaces().shape(*id).form);
-                    shapes
-                        .iter()
-                        .map(|id| form(id).unwrap_or_default())
-                        .collect()
-                }
-            },
-            SensorKind::Camera(camera) => vec![lens(camera)],
-            _ => unknown(),
-        }
+        let mut sides = self.sensors.iter().map(|hull| enclosure.side_of_hull(hull));
+        let first = sides.next()??;
+        sides.all(|side| side == Some(first)).then_some(first)
     }
 }
 
-/// Points whose convex hull contains a form; `None` for an infinite one.
-fn corners(form: &Form) -> Option<Vec<Point>> {
+/// Where a light is; `None` if infinitely far away.
+fn place_of(scene: &Scene, light: &Light) -> Option<Hull> {
+    match &light.kind {
+        LightKind::Point(point) => Some(vec![point.position]),
+        LightKind::Spot(spot) => Some(vec![spot.position]),
+        LightKind::Directional { .. } | LightKind::Environment { .. } => None,
+        LightKind::Area(area) => Some(corners(&scene.surfaces().shape(area.shape).form)),
+    }
+}
+
+/// Where all rays of a sensor start.
+fn hulls(scene: &Scene, sensor: &Sensor) -> Vec<Hull> {
+    let surfaces = scene.surfaces();
+    match &sensor.kind {
+        SensorKind::Irradiance(receivers) => {
+            // Off the surface that they may lie on.
+            let off = |receiver: &Receiver| receiver.clearance.max(4.0 * surfaces.clearance());
+            let start = |one: &Receiver| vec![one.position + one.normal * off(one)];
+            receivers.iter().map(start).collect()
+        }
+        SensorKind::ScalarIrradiance(points) => points.iter().map(|point| vec![*point]).collect(),
+        SensorKind::Radiance(rays) => rays.iter().map(|ray| vec![ray.0]).collect(),
+        SensorKind::Flux { surface, .. } => match surface {
+            FluxSurface::Virtual(form) => vec![corners(form)],
+            FluxSurface::Shapes { shapes, .. } => {
+                let form = |id: &ShapeId| &surfaces.shape(*id).form;
+                shapes.iter().map(|id| corners(form(id))).collect()
+            }
+        },
+        SensorKind::Camera(camera) => vec![lens(camera)],
+    }
+}
+
+/// The corners of a form, or of its bounding box; none for an infinite one.
+fn corners(form: &Form) -> Hull {
     match form {
-        Form::Parallelogram(form) => Some(form.corners().to_vec()),
-        Form::Mesh(mesh) if mesh.vertices.len() <= MOST_POINTS => Some(mesh.vertices.clone()),
-        _ => form.bounds().map(|bounds| bounds.corners().to_vec()),
+        Form::Parallelogram(form) => form.corners().to_vec(),
+        Form::Mesh(mesh) if mesh.vertices.len() <= MOST_CORNERS => mesh.vertices.clone(),
+        _ => form
+            .bounds()
+            .map_or_else(Vec::new, |bounds| bounds.corners().to_vec()),
     }
 }
 
 /// Points whose convex hull contains the starts of a camera's rays.
-fn lens(camera: &Camera) -> Vec<Point> {
+fn lens(camera: &Camera) -> Hull {
     let [right, down] = [camera.frame().tangent(), camera.frame().bitangent()];
     let reach = match camera.projection() {
         Projection::ThinLens {

@@ -11,6 +11,9 @@
 //! | panorama | ((2f_x − W) / W, (2f_y − H) / H) |
 //! | fisheye | (2f_x − W, 2f_y − H) / min(W, H) |
 //!
+//! Outside the circle of a fisheye nothing is sampled: pixels further from it than the filter reaches are exactly 0, with error 0, and those
+//! on its rim are in part.
+//!
 //! Rays are given in f64; the batched loops of the transport have their twin in f32, which is tested against it.
 
 mod projection;

@@ -9,8 +9,6 @@ use super::health::at_same_place;
 use super::solid::{octahedron, winding_number};
 use super::{Form, Sphere, TriangleMesh};
 
-/// Triangles beyond which a mesh is not asked, as each answer visits all of them.
-const MOST_TRIANGLES: usize = 20_000;
 /// Pairs of a triangle and a vertex beyond which a mesh is not examined for convexity.
 const MOST_PAIRS: usize = 4_000_000;
 
@@ -29,7 +27,6 @@ pub struct Enclosure<'a> {
     surface: Surface<'a>,
     bounds: Bounds,
     margin: f64,
-    is_convex: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -41,18 +38,15 @@ enum Surface<'a> {
 impl<'a> Enclosure<'a> {
     /// The enclosure that a form is, if it is closed; nothing is told of points less than `margin` metres from it.
     pub fn of(form: &'a Form, margin: f64) -> Option<Self> {
-        let (surface, is_convex) = match form {
-            Form::Sphere(sphere) if sphere.ports.is_empty() => (Surface::Sphere(sphere), true),
-            Form::Mesh(mesh) if mesh.triangles.len() <= MOST_TRIANGLES && mesh.is_closed() => {
-                (Surface::Mesh(mesh), is_convex(mesh, margin))
-            }
+        let surface = match form {
+            Form::Sphere(sphere) if sphere.ports.is_empty() => Surface::Sphere(sphere),
+            Form::Mesh(mesh) if mesh.is_closed() => Surface::Mesh(mesh),
             _ => return None,
         };
         Some(Self {
             surface,
             bounds: form.bounds()?,
             margin,
-            is_convex,
         })
     }
 
@@ -83,13 +77,18 @@ impl<'a> Enclosure<'a> {
             [] => None,
             [point] => self.side_of(*point),
             _ if self.is_beyond(Bounds::around(points.iter().copied())) => Some(Side::Outside),
-            _ if self.is_convex => {
+            _ => {
                 let mut sides = points.iter().map(|point| self.side_of(*point));
-                sides
-                    .all(|side| side == Some(Side::Inside))
-                    .then_some(Side::Inside)
+                let all_inside = sides.all(|side| side == Some(Side::Inside));
+                (all_inside && self.is_convex()).then_some(Side::Inside)
             }
-            _ => None,
+        }
+    }
+
+    fn is_convex(&self) -> bool {
+        match self.surface {
+            Surface::Sphere(_) => true,
+            Surface::Mesh(mesh) => is_convex(mesh, self.margin),
         }
     }
 
