@@ -30,7 +30,7 @@ const DEFAULT_REL_ERROR: f64 = 0.01;
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
-    /// Scene file (TOML), or a mesh file (OBJ, PLY, STL)
+    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL)
     scene: PathBuf,
     /// Read this sensor only; may be given several times
     #[arg(long, value_name = "NAME")]

@@ -31,7 +31,7 @@ const DEFAULT_SAMPLES: u64 = 64;
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
-    /// Scene file (TOML), or a mesh file (OBJ, PLY, STL)
+    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL)
     scene: PathBuf,
     /// Where the picture goes; .exr, .hdr, .png or .pfm tells the format
     #[arg(short, long, value_name = "FILE")]

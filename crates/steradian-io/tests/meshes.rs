@@ -232,6 +232,18 @@ fn every_format_gives_the_same_picture_bit_for_bit() {
         numbers(camera.position.to_array()),
         numbers(camera.look_at.to_array())
     );
-    let scene = load("a.toml", &files.with("a.toml", format!("{SCENE}{keys}")));
-    assert!(lanes(&picture(&scene)) == expected, "in a scene file");
+    for (file, up) in [
+        ("a.obj", "up = \"y\""),
+        ("a.ply", "up = \"z\""),
+        ("a.glb", ""),
+    ] {
+        let text = format!("{SCENE}{keys}")
+            .replace("a.obj", file)
+            .replace("up = \"y\"", up);
+        let scene = load("a.toml", &files.clone().with("a.toml", text));
+        assert!(
+            lanes(&picture(&scene)) == expected,
+            "{file} in a scene file"
+        );
+    }
 }

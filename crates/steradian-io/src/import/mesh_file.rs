@@ -16,6 +16,8 @@ pub struct MeshFile {
     pub materials: Vec<MeshMaterial>,
     /// What was approximated or passed over.
     pub warnings: Vec<String>,
+    /// The format itself says which axis points up and what the unit is: this is in metres, z up.
+    pub is_oriented: bool,
 }
 
 /// The triangles of one material.
@@ -52,6 +54,7 @@ impl MeshFile {
             parts: vec![part],
             materials,
             warnings,
+            is_oriented: false,
         }
     }
 

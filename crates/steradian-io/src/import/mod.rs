@@ -3,6 +3,7 @@
 mod alpha;
 mod defaults;
 pub mod gltf;
+mod gltf_mesh;
 pub mod image;
 mod mesh_file;
 pub mod obj;
@@ -23,11 +24,11 @@ pub use mesh_file::{MeshFile, MeshMaterial, MeshPart};
 pub use scene::{ImportError, is_scene, scene};
 
 /// What is wrong with a mesh file.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MeshError {
     /// An extension that no reader knows.
-    #[error("expected a mesh file (.obj, .ply or .stl), found {0:?}")]
+    #[error("expected a mesh file (.obj, .ply, .stl, .gltf or .glb), found {0:?}")]
     Format(String),
     /// In an OBJ file or one of its material libraries.
     #[error(transparent)]
@@ -38,6 +39,9 @@ pub enum MeshError {
     /// In an STL file.
     #[error(transparent)]
     Stl(#[from] stl::StlError),
+    /// In a glTF file.
+    #[error(transparent)]
+    Gltf(#[from] gltf::GltfError),
 }
 
 /// The formats of meshes, by extension.
@@ -49,6 +53,8 @@ pub enum MeshFormat {
     Ply,
     /// Triangles of stereolithography.
     Stl,
+    /// glTF, in text or binary.
+    Gltf,
 }
 
 impl MeshFormat {
@@ -58,6 +64,7 @@ impl MeshFormat {
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
             "stl" => Some(Self::Stl),
+            "gltf" | "glb" => Some(Self::Gltf),
             _ => None,
         }
     }
@@ -68,6 +75,7 @@ impl MeshFormat {
             Self::Obj => "OBJ",
             Self::Ply => "PLY",
             Self::Stl => "STL",
+            Self::Gltf => "glTF",
         }
     }
 }
@@ -83,6 +91,7 @@ pub fn mesh(path: &Path, bytes: &[u8], files: &dyn Files) -> Result<MeshFile, Me
         Some(MeshFormat::Obj) => obj::read(bytes, directory, files)?,
         Some(MeshFormat::Ply) => ply::read(bytes)?,
         Some(MeshFormat::Stl) => stl::read(bytes)?,
+        Some(MeshFormat::Gltf) => gltf_mesh::read(path, bytes, files)?,
         None => return Err(MeshError::Format(path.display().to_string())),
     };
     let (flat, all) = (file.triangles_without_area(), file.triangles());

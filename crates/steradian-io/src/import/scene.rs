@@ -36,14 +36,7 @@ pub enum ImportError {
 
 /// Whether a file of this name is read by [`scene`].
 pub fn is_scene(path: &Path) -> bool {
-    is_gltf(path) || MeshFormat::of(path).is_some()
-}
-
-fn is_gltf(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default();
-    ["gltf", "glb"]
-        .iter()
-        .any(|known| extension.eq_ignore_ascii_case(known))
+    MeshFormat::of(path).is_some()
 }
 
 /// The scene that a file of another program is, seen by a default camera under default light where it has none.
@@ -53,7 +46,7 @@ fn is_gltf(path: &Path) -> bool {
 /// # Errors
 /// The first thing that is wrong with the file.
 pub fn scene(path: &Path, files: &dyn Files) -> Result<SceneDescription, ImportError> {
-    if is_gltf(path) {
+    if MeshFormat::of(path) == Some(MeshFormat::Gltf) {
         return Ok(gltf::read(path, files)?.description);
     }
     let bytes = files.read(path).map_err(|error| ImportError::File {

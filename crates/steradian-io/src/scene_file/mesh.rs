@@ -115,7 +115,7 @@ fn loaded(fields: &Fields<'_>, name: Option<&str>) -> Option<Arc<LoadedMesh>> {
     let key = format!("{name}\n{unit:?}\n{up:?}");
     fields.context().mesh(key, || {
         let mut file = from_file(fields, name)?;
-        let (unit, up) = (unit?, up?);
+        let (unit, up) = (unit?, if file.is_oriented { UpAxis::Z } else { up? });
         for part in &mut file.parts {
             for vertex in &mut Arc::make_mut(&mut part.mesh).vertices {
                 *vertex = up.point_in(scene_up, scaled(*vertex, unit));
@@ -131,7 +131,11 @@ fn loaded(fields: &Fields<'_>, name: Option<&str>) -> Option<Arc<LoadedMesh>> {
 
 /// Adds what was assumed and approximated to the warnings.
 fn tell(fields: &Fields<'_>, name: &str, file: &MeshFile) {
-    if !fields.has("unit") {
+    if file.is_oriented && fields.has("up") {
+        let message = format!("{name} says itself which axis is up");
+        fields.context().error(fields.span_of("up"), message, None);
+    }
+    if !(file.is_oriented || fields.has("unit")) {
         let warning = format!(
             "{name} has no unit: its numbers are read as metres; `unit` sets another, `up` its axis"
         );
@@ -166,7 +170,8 @@ fn unit(fields: &Fields<'_>) -> Option<f64> {
 fn from_file(fields: &Fields<'_>, name: &str) -> Option<MeshFile> {
     let span = fields.span_of("file");
     if import::MeshFormat::of(Path::new(name)).is_none() {
-        let message = format!("expected a mesh file (.obj, .ply or .stl), found {name:?}");
+        let message =
+            format!("expected a mesh file (.obj, .ply, .stl, .gltf or .glb), found {name:?}");
         fields.context().error(span, message, None);
         return None;
     }

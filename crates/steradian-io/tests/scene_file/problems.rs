@@ -478,7 +478,7 @@ fn files_that_cannot_be_read() {
         "parts/triangle.obj",
         "part.3ds",
         "\"part.3ds\"",
-        "expected a mesh file (.obj, .ply or .stl), found \"part.3ds\"",
+        "expected a mesh file (.obj, .ply, .stl, .gltf or .glb), found \"part.3ds\"",
     );
 }
 

@@ -62,6 +62,7 @@ use std::path::Path;
 
 use steradian::scene::description::SceneDescription;
 
+use super::defaults;
 use crate::files::{Files, reason};
 use document::Document;
 use uri::Resources;
@@ -85,11 +86,21 @@ pub fn read(path: &Path, files: &dyn Files) -> Result<Imported, GltfError> {
         path: path.to_owned(),
         reason: reason(&error),
     })?;
-    let container = container::open(&bytes)?;
+    let mut description = read_bytes(path, &bytes, files)?;
+    defaults::complete(&mut description);
+    Ok(Imported { description })
+}
+
+/// What the file with these bytes says, with nothing added to be seen with.
+pub(super) fn read_bytes(
+    path: &Path,
+    bytes: &[u8],
+    files: &dyn Files,
+) -> Result<SceneDescription, GltfError> {
+    let container = container::open(bytes)?;
     let directory = path.parent().unwrap_or(Path::new("")).to_owned();
     let resources = Resources { directory, files };
     let document = Document::new(&container, &resources)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let description = scene::read(&document, &resources, &name)?;
-    Ok(Imported { description })
+    scene::read(&document, &resources, &name)
 }

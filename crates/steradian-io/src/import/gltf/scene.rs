@@ -22,7 +22,6 @@ use super::schema::{Node, Primitive};
 use super::textures::Textures;
 use super::uri::Resources;
 use super::{cameras, extensions, lights, primitives};
-use crate::import::defaults;
 use crate::import::scene::y_to_z_up;
 
 /// More triangles than this are refused.
@@ -255,7 +254,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Adds what a scene needs to be seen.
+    /// All of it.
     fn finish(self) -> Result<SceneDescription, GltfError> {
         let Self {
             notes,
@@ -268,7 +267,6 @@ impl Builder<'_> {
         }
         description.materials = materials.described;
         description.warnings = notes.into_warnings();
-        defaults::complete(&mut description);
         Ok(description)
     }
 }

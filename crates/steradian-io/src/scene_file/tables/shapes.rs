@@ -82,7 +82,7 @@ const MESH: &[Key] = &[
         "triangles",
         "file",
         Value::File,
-        "An OBJ, PLY or STL file, relative to the scene file; its materials are used where `material` is absent",
+        "An OBJ, PLY, STL or glTF file, relative to the scene file; its materials are used where `material` is absent",
     ),
     Key::one_of(
         "triangles",
@@ -106,7 +106,7 @@ const MESH: &[Key] = &[
     Key::optional(
         "up",
         UpAxis::VALUE,
-        "The axis that points up in the mesh file; that of the scene unless given",
+        "The axis that points up in the mesh file; that of the scene unless given, or unless the format says it",
     )
     .beside("file"),
 ];
