@@ -164,6 +164,10 @@ fn what_reaches_beyond_is_refused_with_its_place() {
             "accessors[0]: there is no component type 7",
         ),
         (
+            |buffer| buffer.views[0]["byteStride"] = json!(8),
+            "accessors[0]: its elements of 12 bytes overlap at a stride of 8",
+        ),
+        (
             |buffer| buffer.accessors[0]["type"] = json!("MAT4"),
             "accessors[0]: expected VEC3, found \"MAT4\"",
         ),

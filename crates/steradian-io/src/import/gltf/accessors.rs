@@ -112,11 +112,7 @@ impl<'a> Elements<'a> {
         let component = component(accessor.component_type, &place)?;
         let width = width(&accessor.r#type);
         let size = width * component.size();
-        let stride = stride(document, accessor).unwrap_or(size);
-        if stride < size {
-            let fault = format!("its elements of {size} bytes overlap at a stride of {stride}");
-            return Err(GltfError::at(place, fault));
-        }
+        let stride = stride(document, accessor, size, &place)?;
         let dense = dense(document, accessor, [stride, size], &place)?;
         let sparse = accessor.sparse.as_ref();
         let replaced = sparse
@@ -205,12 +201,20 @@ fn width(kind: &str) -> usize {
     }
 }
 
-fn stride(document: &Document<'_>, accessor: &Accessor) -> Option<usize> {
-    document
-        .root
-        .buffer_views
-        .get(accessor.buffer_view?)?
-        .byte_stride
+/// Bytes from one element to the next.
+fn stride(
+    document: &Document<'_>,
+    accessor: &Accessor,
+    size: usize,
+    place: &str,
+) -> Result<usize, GltfError> {
+    let view = accessor.buffer_view;
+    let view = view.and_then(|view| document.root.buffer_views.get(view));
+    let stride = view.and_then(|view| view.byte_stride).unwrap_or(size);
+    let fault = || format!("its elements of {size} bytes overlap at a stride of {stride}");
+    (stride >= size)
+        .then_some(stride)
+        .ok_or_else(|| GltfError::at(place, fault()))
 }
 
 /// The bytes from the first element on, all elements within.

@@ -11,6 +11,9 @@
 //! | s_u, s_v | scale | 1 |
 //! | α | rotation, counter-clockwise as seen on the picture | rad |
 //!
+//! which is what the text of the extension and the exporter of Khronos for Blender say; the shader printed with the
+//! extension turns the other way.
+//!
 //! All pictures that are used hold colours, in sRGB. `minFilter` has no meaning for rays.
 
 use std::collections::HashMap;
