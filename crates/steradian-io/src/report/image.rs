@@ -148,10 +148,26 @@ impl RadianceImage {
         }
     }
 
-    /// True when the lanes are red, green and blue.
+    /// True when the first lanes are red, green and blue.
     pub fn is_rgb(&self) -> bool {
         let names = self.channels.iter().map(|channel| channel.name.as_str());
-        names.eq(["red", "green", "blue"])
+        names.take(3).eq(["red", "green", "blue"])
+    }
+
+    /// What the brightness of a displayed pixel follows: the quantity, or the luminance of the colours where the
+    /// picture also has light that is not seen.
+    pub fn brightness(&self) -> (Vec<f64>, &str, f64) {
+        let facts = &self.facts.quantity;
+        if !(self.is_rgb() && self.channels.len() > 3) {
+            return (self.quantity(), &facts.unit, facts.weights.iter().sum());
+        }
+        let [red, green, blue] = [0, 1, 2].map(|lane| &self.channels[lane].values);
+        let pixel = |at: usize| {
+            let [r, g, b] = [red, green, blue].map(|lane| f64::from(lane[at]));
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let pixels = (0..self.width * self.height).map(pixel).collect();
+        (pixels, "W/(m2 sr) as seen", 1.0)
     }
 
     /// The quantity of every pixel: Σ weight · lane.
@@ -173,7 +189,10 @@ impl RadianceImage {
 
     /// The lanes of a format that holds either one or red, green and blue.
     pub(super) fn one_or_three(&self, format: &'static str) -> Result<&[Channel], ReportError> {
-        if self.channels.len() == 1 || self.is_rgb() {
+        if self.is_rgb() {
+            return Ok(&self.channels[..3]);
+        }
+        if self.channels.len() == 1 {
             return Ok(&self.channels);
         }
         let names: Vec<&str> = self

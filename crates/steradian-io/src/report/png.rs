@@ -39,14 +39,13 @@ impl Pixels {
 /// The bytes of a tone-mapped PNG; each stop doubles the brightness. Lanes other than red, green and blue give the
 /// picture's quantity in grey.
 pub fn encode_tone_mapped(picture: &RadianceImage, stops: f64) -> Result<Vec<u8>, ReportError> {
-    let quantity = picture.quantity();
-    let scale = exposure(&quantity, stops);
+    let (brightness, unit, of_white) = picture.brightness();
+    let scale = exposure(&brightness, stops);
     let pixels = if picture.is_rgb() {
-        colour_pixels(picture, scale)
+        colour_pixels(picture, scale * of_white)
     } else {
-        grey_pixels(picture, &quantity, scale)
+        grey_pixels(picture, &brightness, scale)
     };
-    let unit = &picture.facts.quantity.unit;
     let note = format!(
         "tone-mapped: display-linear value = {scale:e} per {unit}, cut off at 1, sRGB curve"
     );
@@ -62,9 +61,8 @@ pub fn encode_false_colour(picture: &RadianceImage) -> Result<Vec<u8>, ReportErr
     encode(&false_colour::draw(picture, &scale), picture, note)
 }
 
-/// White is where the quantity of equal lanes reaches 1 / `scale`.
-fn colour_pixels(picture: &RadianceImage, scale: f64) -> Pixels {
-    let lane_scale = scale * picture.facts.quantity.weights.iter().sum::<f64>();
+/// White is where all lanes reach 1 / `lane_scale`.
+fn colour_pixels(picture: &RadianceImage, lane_scale: f64) -> Pixels {
     let [red, green, blue] = [0, 1, 2].map(|lane| &picture.channels[lane].values);
     let pixel = |at: usize| [red, green, blue].map(|lane| srgb(lane_scale * f64::from(lane[at])));
     let rgb = (0..picture.width * picture.height).map(pixel).collect();

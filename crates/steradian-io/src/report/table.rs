@@ -29,7 +29,7 @@ pub fn encode(run: &Run<'_>) -> String {
 fn columns(measurements: &Measurements, readings: &[Reading]) -> Columns {
     let percent = exact(100.0 * measurements.confidence);
     let parts = Parts {
-        channels: measurements.lanes.len() > 1,
+        channels: readings.iter().any(|reading| reading.channels.len() > 1),
         groups: measurements.groups.len() > 1,
     };
     let mut headings = ["sensor", "#", "at (m)", "quantity"]
@@ -46,7 +46,7 @@ fn columns(measurements: &Measurements, readings: &[Reading]) -> Columns {
     headings.extend(measurements.groups.iter().filter(|_| parts.groups).cloned());
     let mut columns = Columns::new(headings).right_aligned(1);
     for reading in readings {
-        columns.row(cells(reading, parts));
+        columns.row(cells(measurements, reading, parts));
     }
     columns
 }
@@ -58,7 +58,7 @@ struct Parts {
     groups: bool,
 }
 
-fn cells(reading: &Reading, shown: Parts) -> Vec<String> {
+fn cells(measurements: &Measurements, reading: &Reading, shown: Parts) -> Vec<String> {
     let mark = if reading.estimate.converged {
         ""
     } else {
@@ -72,9 +72,14 @@ fn cells(reading: &Reading, shown: Parts) -> Vec<String> {
         reading.quantity.clone(),
         format!("{value}{mark}"),
     ];
-    let channels = reading.channels.iter().filter(|_| shown.channels);
+    let lanes = measurements.lanes.iter().filter(|_| shown.channels);
+    cells.extend(lanes.map(|lane| {
+        let mut channels = reading.channels.iter();
+        let channel = channels.find(|(name, _)| *name == lane.name);
+        channel.map_or_else(String::new, |(_, part)| estimate(part))
+    }));
     let groups = reading.groups.iter().filter(|_| shown.groups);
-    cells.extend(channels.chain(groups).map(|(_, part)| estimate(part)));
+    cells.extend(groups.map(|(_, part)| estimate(part)));
     cells
 }
 
