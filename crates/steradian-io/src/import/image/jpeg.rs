@@ -41,12 +41,12 @@ fn unreadable(error: impl ToString) -> ImageError {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use steradian::material::Texels;
 
-    const BASELINE: &[u8] = include_bytes!("../../../tests/data/two_blocks.jpg");
-    const PROGRESSIVE: &[u8] = include_bytes!("../../../tests/data/two_blocks_progressive.jpg");
+    pub const BASELINE: &[u8] = include_bytes!("../../../tests/data/two_blocks.jpg");
+    pub const PROGRESSIVE: &[u8] = include_bytes!("../../../tests/data/two_blocks_progressive.jpg");
     const GREY: &[u8] = include_bytes!("../../../tests/data/grey.jpg");
 
     fn codes(bytes: &[u8]) -> Vec<[u8; 4]> {

@@ -148,7 +148,32 @@ mod tests {
         assert!(message.contains("100000 x 100000"), "{message}");
     }
 
+    /// A whole file of each kind.
+    fn whole(kind: usize) -> Vec<u8> {
+        use ::png::{BitDepth, ColorType};
+        match kind {
+            0 => jpeg::tests::BASELINE.to_vec(),
+            1 => jpeg::tests::PROGRESSIVE.to_vec(),
+            2 => png::tests::file(ColorType::Rgba, BitDepth::Eight, &[7; 8], None),
+            _ => openexr::tests::file(&[("R", [1.0, 2.0]), ("G", [0.0; 2]), ("B", [0.5; 2])]),
+        }
+    }
+
     proptest! {
+        #[test]
+        fn damaged_pictures_are_read_or_refused(
+            kind in 0_usize..4, changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..5),
+        ) {
+            let mut bytes = whole(kind);
+            for (index, byte) in changes {
+                let at = index.index(bytes.len());
+                bytes[at] = byte;
+            }
+            if let Ok(bitmap) = read(&bytes, Encoding::Srgb) {
+                prop_assert!(bitmap.size()[1] > 0);
+            }
+        }
+
         #[test]
         fn any_bytes_are_read_or_refused(
             signature in prop::sample::select(vec![

@@ -74,11 +74,11 @@ fn unreadable(error: impl ToString) -> ImageError {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use exr::prelude::{AnyChannel, Encoding, Image, LayerAttributes, WritableImage};
 
-    fn file(channels: &[(&str, [f32; 2])]) -> Vec<u8> {
+    pub fn file(channels: &[(&str, [f32; 2])]) -> Vec<u8> {
         let channel = |(name, values): &(&str, [f32; 2])| {
             AnyChannel::new(*name, FlatSamples::F32(values.to_vec()))
         };
