@@ -2,54 +2,55 @@
 
 use steradian::material::{Bitmap, BitmapError, Texels};
 
-/// The picture as one of opacity: unless its alpha varies or is below 1, the mean of red, green and blue is its alpha.
+/// The picture as one of opacity: where its alpha is 1 throughout, the mean of red, green and blue becomes its alpha.
 ///
 /// # Errors
 /// None that a picture's own texels could cause.
 pub fn as_opacity(picture: Bitmap) -> Result<Bitmap, BitmapError> {
-    let has_alpha = match picture.texels() {
+    let texels = match picture.texels() {
         Texels::Srgb8(texels) | Texels::Linear8(texels) => {
-            texels.iter().any(|texel| texel[3] != u8::MAX)
+            from_grey(texels, u8::MAX, mean_8).map(Texels::Linear8)
         }
         Texels::Srgb16(texels) | Texels::Linear16(texels) => {
-            texels.iter().any(|texel| texel[3] != u16::MAX)
+            from_grey(texels, u16::MAX, mean_16).map(Texels::Linear16)
         }
-        Texels::Float(texels) => texels.iter().any(|texel| texel[3] != 1.0),
+        Texels::Float(texels) => from_grey(texels, 1.0, mean).map(Texels::Float),
     };
-    if has_alpha {
+    let Some(texels) = texels else {
         return Ok(picture);
-    }
-    let texels = match picture.texels() {
-        Texels::Srgb8(texels) | Texels::Linear8(texels) => Texels::Linear8(
-            texels
-                .iter()
-                .map(|texel| {
-                    let sum: u16 = texel[..3].iter().map(|code| u16::from(*code)).sum();
-                    [u8::MAX, u8::MAX, u8::MAX, (sum / 3) as u8]
-                })
-                .collect(),
-        ),
-        Texels::Srgb16(texels) | Texels::Linear16(texels) => Texels::Linear16(
-            texels
-                .iter()
-                .map(|texel| {
-                    let sum: u32 = texel[..3].iter().map(|code| u32::from(*code)).sum();
-                    [u16::MAX, u16::MAX, u16::MAX, (sum / 3) as u16]
-                })
-                .collect(),
-        ),
-        Texels::Float(texels) => Texels::Float(
-            texels
-                .iter()
-                .map(|[red, green, blue, _]| [1.0, 1.0, 1.0, ((red + green + blue) / 3.0).min(1.0)])
-                .collect(),
-        ),
     };
     let [width, height] = picture.size();
     let mut opacity = Bitmap::new(width, height, texels)?;
     opacity.wrap = picture.wrap;
     opacity.interpolation = picture.interpolation;
     Ok(opacity)
+}
+
+/// White texels with the mean as their alpha; `None` if there is alpha already.
+fn from_grey<C: Copy + PartialEq>(
+    texels: &[[C; 4]],
+    opaque: C,
+    mean: impl Fn([C; 3]) -> C,
+) -> Option<Vec<[C; 4]>> {
+    let is_opaque = texels.iter().all(|texel| texel[3] == opaque);
+    let white = |[red, green, blue, _]: &[C; 4]| {
+        let alpha = mean([*red, *green, *blue]);
+        [opaque, opaque, opaque, alpha]
+    };
+    is_opaque.then(|| texels.iter().map(white).collect())
+}
+
+fn mean_8(codes: [u8; 3]) -> u8 {
+    (codes.map(u16::from).iter().sum::<u16>() / 3) as u8
+}
+
+fn mean_16(codes: [u16; 3]) -> u16 {
+    (codes.map(u32::from).iter().sum::<u32>() / 3) as u16
+}
+
+/// Opacity is at most 1.
+fn mean([red, green, blue]: [f32; 3]) -> f32 {
+    ((red + green + blue) / 3.0).min(1.0)
 }
 
 #[cfg(test)]

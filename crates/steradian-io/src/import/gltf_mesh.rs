@@ -12,9 +12,6 @@ use super::gltf::{self, GltfError};
 use super::mesh_file::{MeshFile, MeshMaterial, MeshPart};
 use crate::files::Files;
 
-/// What tells parts apart: material, and whether there are texture coordinates and colours.
-type Kind = (Option<String>, bool, bool);
-
 /// Reads the surfaces of a glTF file; its lights and cameras are left out. Metres, z up.
 pub(super) fn read(path: &Path, bytes: &[u8], files: &dyn Files) -> Result<MeshFile, GltfError> {
     let scene = gltf::read_bytes(path, bytes, files)?;
@@ -26,32 +23,33 @@ pub(super) fn read(path: &Path, bytes: &[u8], files: &dyn Files) -> Result<MeshF
     if !(scene.lights.is_empty() && scene.sensors.is_empty()) {
         file.warnings.push("lights and cameras are left out".into());
     }
-    let mut parts: Vec<(Kind, MeshData)> = Vec::new();
     for shape in &scene.shapes {
-        let GeometryDescription::Mesh(mesh) = &shape.geometry else {
-            continue;
-        };
-        let material = index_of(&mut file, &scene, shape);
-        let kind = (
-            material.map(|index| file.materials[index].material.name.clone()),
-            !mesh.texture_coordinates.is_empty(),
-            !mesh.colors.is_empty(),
-        );
-        let known = parts.iter().position(|(known, _)| *known == kind);
-        let part = known.unwrap_or_else(|| {
-            file.parts.push(MeshPart {
-                mesh: Arc::default(),
-                material,
-            });
-            parts.push((kind, MeshData::default()));
-            parts.len() - 1
-        });
-        append(&mut parts[part].1, mesh, &shape.transform).ok_or(GltfError::Empty)?;
-    }
-    for (part, (_, mesh)) in file.parts.iter_mut().zip(parts) {
-        part.mesh = Arc::new(mesh);
+        if let GeometryDescription::Mesh(mesh) = &shape.geometry {
+            let material = index_of(&mut file, &scene, shape);
+            let part = part_for(&mut file, mesh, material);
+            append(part, mesh, &shape.transform).ok_or(GltfError::Empty)?;
+        }
     }
     Ok(file)
+}
+
+/// The part for a mesh: of the same material, and with texture coordinates and colours if and only if the mesh has them.
+fn part_for<'f>(
+    file: &'f mut MeshFile,
+    mesh: &MeshData,
+    material: Option<usize>,
+) -> &'f mut MeshData {
+    let is_alike = |part: &MeshPart| {
+        part.material == material
+            && part.mesh.texture_coordinates.is_empty() == mesh.texture_coordinates.is_empty()
+            && part.mesh.colors.is_empty() == mesh.colors.is_empty()
+    };
+    let index = file.parts.iter().position(is_alike).unwrap_or_else(|| {
+        let mesh = Arc::default();
+        file.parts.push(MeshPart { mesh, material });
+        file.parts.len() - 1
+    });
+    Arc::make_mut(&mut file.parts[index].mesh)
 }
 
 /// The number of a shape's material, with what the shape emits.
