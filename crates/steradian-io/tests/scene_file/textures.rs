@@ -178,6 +178,17 @@ fn what_is_wrong_with_a_texture_is_shown_at_its_key() {
     }
 }
 
+#[test]
+fn sides_have_an_opacity_each() {
+    let found = problems("[materials.a]\nfront = \"b\"\nback = \"b\"\nopacity = 0.5\n");
+    assert_eq!(found.len(), 1, "{}", render(&found, false));
+    assert!(
+        found[0]
+            .message
+            .contains("unknown key `opacity` of the two-sided material")
+    );
+}
+
 const HOUSE: &str = "mtllib house.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl wall\nf 1/1 2/1 3/1\nusemtl lamp\nf 3/1 2/1 1/1\n";
 const HOUSE_MTL: &str = "newmtl wall\nKd 0.5 0.5 0.5\nmap_Kd -s 2 2 half.hdr\nmap_d half.hdr\nnewmtl lamp\nKd 0 0 0\nKe 3 3 3\nmap_Ke none.png\n";
 

@@ -100,34 +100,42 @@ pub const SCENE: Record = Record {
     ],
 };
 
+const OPACITY_KEY: Key = Key::optional(
+    "opacity",
+    OPACITY,
+    "Part of the light that the surface stops, 0 to 1; the rest passes straight through",
+);
+
 pub const MATERIALS: Family = Family {
     noun: "material",
     tag: "model",
     untagged: Some("two-sided"),
-    common: &[Key::optional(
-        "opacity",
-        OPACITY,
-        "Part of the light that the surface stops, 0 to 1; the rest passes straight through",
-    )],
+    common: &[],
     kinds: &[
         Kind::new(
             "lambertian",
             "Reflects the same radiance in all directions",
-            &[Key::required(
-                "reflectance",
-                VARYING,
-                "Part of the arriving flux that is reflected, 0 to 1",
-            )],
+            &[
+                Key::required(
+                    "reflectance",
+                    VARYING,
+                    "Part of the arriving flux that is reflected, 0 to 1",
+                ),
+                OPACITY_KEY,
+            ],
         ),
         Kind::new(
             "mirror",
             "A perfect mirror",
-            &[Key::default(
-                "reflectance",
-                Value::Lanes,
-                "1",
-                "Part of the arriving flux that is reflected, 0 to 1",
-            )],
+            &[
+                Key::default(
+                    "reflectance",
+                    Value::Lanes,
+                    "1",
+                    "Part of the arriving flux that is reflected, 0 to 1",
+                ),
+                OPACITY_KEY,
+            ],
         ),
         Kind::new(
             "two-sided",
