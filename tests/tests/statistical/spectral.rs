@@ -245,3 +245,24 @@ fn wavelengths_reach_from_ultraviolet_to_infrared() {
     assert_eq!(found[1].unit, "W/(m2 sr nm)");
     assert_agrees("infrared", &found[1].estimate, 50.0 * part / 2000.0, 1e-9);
 }
+
+/// Lights without a spectrum and tables that end within the run are told.
+#[test]
+fn what_is_assumed_of_spectra_is_told() {
+    let mut scene = lamp(table(rust()));
+    scene.materials = vec![coloured("rust", table(rust()))];
+    scene
+        .lights
+        .push(point_light(p(1.0, 0.0, 2.0), luminous_flux(1.0)));
+    let warnings = measured(&scene, &samples(1 << 10)).warnings;
+    let told = [
+        "lights without a spectrum have equal energy at every wavelength (illuminant E): `light 1`",
+        "light `light 0`: its table goes from 400 to 700 nm; beyond it emits nothing",
+        "material `rust`: its table goes from 400 to 700 nm and keeps its last value beyond",
+    ];
+    assert_eq!(warnings, told);
+    scene.spectrum = SpectrumMode::Spectral {
+        range: [400.0, 700.0],
+    };
+    assert_eq!(measured(&scene, &samples(1 << 10)).warnings, told[..1]);
+}

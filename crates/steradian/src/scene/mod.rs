@@ -12,6 +12,7 @@ mod lights;
 mod materials;
 mod problem;
 mod receivers;
+mod remarks;
 mod sensors;
 mod spectral_readouts;
 mod unseen;
@@ -111,7 +112,7 @@ impl Scene {
             lights: lights.lights,
             curves: curves.0,
             sensors,
-            warnings: description.warnings.clone(),
+            warnings: warnings(description, &lanes),
             is_opaque: description.materials.iter().all(stops_light),
             lanes,
         })
@@ -224,6 +225,15 @@ fn stops_light(material: &MaterialDescription) -> bool {
             | MaterialModel::Mirror { .. }
             | MaterialModel::TwoSided { .. } => true,
         }
+}
+
+/// What the reader of the file approximated, and what is known of the spectra.
+fn warnings(description: &SceneDescription, lanes: &Lanes) -> Vec<String> {
+    let mut warnings = description.warnings.clone();
+    if let Some(grid) = lanes.grid() {
+        warnings.extend(remarks::spectral(description, grid));
+    }
+    warnings
 }
 
 fn check_light(description: &SceneDescription, problems: &mut Vec<Problem>) {
