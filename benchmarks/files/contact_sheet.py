@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Renders every glTF file of a folder small and puts the pictures on one sheet.
+"""Renders every glTF, OBJ, PLY and STL file of some folders small and puts the pictures on one sheet.
 
-    contact_sheet.py FOLDER SHEET.png [--program steradian] [--width 240] [--height 180] [--samples 32]
+    contact_sheet.py FOLDER… SHEET.png [--program steradian] [--width 240] [--height 180] [--samples 32]
 
 Prints a line for each file: seconds, the largest memory in MiB, and what the program warned of.
-Pictures stand in rows of five, in the order of the printed lines. Standard library only.
+Pictures stand in rows of seven, in the order of the printed lines. Standard library only.
 """
 
 import argparse
@@ -16,7 +16,8 @@ import tempfile
 import time
 import zlib
 
-COLUMNS = 5
+COLUMNS = 7
+SUFFIXES = (".gltf", ".glb", ".obj", ".ply", ".stl")
 
 
 def decode(png: bytes) -> tuple[int, int, list[bytes]]:
@@ -90,14 +91,15 @@ def render(program: str, scene: pathlib.Path, picture: pathlib.Path, options) ->
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("folders", type=pathlib.Path, nargs="+")
     parser.add_argument("sheet", type=pathlib.Path)
     parser.add_argument("--program", default="steradian")
     parser.add_argument("--width", type=int, default=240)
     parser.add_argument("--height", type=int, default=180)
     parser.add_argument("--samples", type=int, default=32)
     options = parser.parse_args()
-    scenes = sorted(path for path in options.folder.rglob("*") if path.suffix in (".gltf", ".glb"))
+    files = (path for folder in options.folders for path in sorted(folder.rglob("*")))
+    scenes = [path for path in files if path.suffix.lower() in SUFFIXES]
     pictures = []
     with tempfile.TemporaryDirectory() as folder:
         for number, scene in enumerate(scenes):
