@@ -287,3 +287,62 @@ fn a_mask_is_there_or_not() {
         );
     }
 }
+
+/// What a net counts on a surface that lets light pass is what arrives less what is reflected.
+#[test]
+fn a_half_open_surface_reflects_and_absorbs_in_part() {
+    let half = MaterialDescription {
+        opacity: Some(half_open()),
+        ..lambertian("half", 0.6)
+    };
+    let mut scene = scene(
+        [half],
+        [square(2.0, 1.0).made_of("half").named("net")],
+        [directional(DOWN, 100.0)],
+    );
+    let of = |of| flux_of("net", of);
+    scene.sensors = vec![
+        sensor("incident", of(FluxOf::Incident)),
+        sensor("leaving", of(FluxOf::Leaving)),
+        sensor("absorbed", of(FluxOf::Absorbed)),
+        sensor("net", of(FluxOf::Net)),
+    ];
+    let found = measured(&scene, &samples(1 << 12));
+    for (name, part) in [
+        ("incident", 1.0),
+        ("leaving", 0.25 * 0.6),
+        ("absorbed", 0.25 * 0.4),
+        ("net", 1.0 - 0.25 * 0.6),
+    ] {
+        let expected = 400.0 * part;
+        let estimate = reading(&found, name).estimate;
+        assert_agrees(name, &estimate, expected, 1e-6 * expected);
+    }
+}
+
+/// Coloured pictures say nothing about bands and infrared, and nothing reflects more than it receives.
+#[test]
+fn pictures_that_cannot_be_told_are_refused() {
+    let refused = |mode: SpectrumMode, texel: [f32; 4]| {
+        let picture = halves(texel, [0.5, 0.5, 0.5, 1.0]);
+        let mut scene = scene(
+            [textured("picture", 1.0, vec![picture])],
+            [square(2.0, 0.0).made_of("picture")],
+            [directional(DOWN, 100.0)],
+        );
+        scene.spectrum = mode;
+        scene.sensors = vec![sensor("above", irradiance_at([(p(0.0, 0.0, 1.0), DOWN)]))];
+        let problems = steradian::scene::Scene::new(&scene).err();
+        problems
+            .map(|problems| problems[0].message.clone())
+            .unwrap_or_default()
+    };
+    let (colour, grey) = ([0.9, 0.1, 0.1, 1.0], [0.2, 0.2, 0.2, 1.0]);
+    assert!(refused(visible(), colour).contains("bands know grey only"));
+    assert_eq!(refused(visible(), grey), "");
+    let infrared = SpectrumMode::Spectral {
+        range: [360.0, 1000.0],
+    };
+    assert!(refused(infrared, grey).contains("outside 360 to 830 nm"));
+    assert!(refused(SpectrumMode::Rgb, [1.5, 1.0, 1.0, 1.0]).contains("texel 0 is [1.5"));
+}

@@ -174,7 +174,10 @@ pub(super) fn textures(
             description::Pattern::Checkerboard([a, b]) => {
                 Pattern::Checkerboard([hue(a, lanes, curves)?, hue(b, lanes, curves)?])
             }
-            description::Pattern::VertexColor => Pattern::VertexColor,
+            description::Pattern::VertexColor => {
+                lanes.check_colours().map_err(|error| error.to_string())?;
+                Pattern::VertexColor
+            }
         };
         Ok(Texture {
             pattern,
@@ -186,11 +189,12 @@ pub(super) fn textures(
 
 /// Bands know no colours, and no surface reflects more than it receives.
 fn check_bitmap(bitmap: &Bitmap, lanes: &Lanes) -> Result<(), String> {
-    let colours = !(lanes.is_rgb() || lanes.is_spectral());
+    lanes.check_colours().map_err(|error| error.to_string())?;
+    let grey_only = !(lanes.is_rgb() || lanes.is_spectral());
     let texels = bitmap.texels();
     for index in 0..texels.len() {
         let [r, g, b, alpha] = texels.at(index);
-        if colours && (r != g || g != b) {
+        if grey_only && (r != g || g != b) {
             return Err("a coloured texture needs `spectrum = \"rgb\"` or `\"spectral\"`: bands know grey only".into());
         }
         if r.max(g).max(b).max(alpha) > 1.0 {

@@ -4,21 +4,18 @@ use std::f32::consts::FRAC_1_PI;
 use std::f64::consts::PI;
 
 use super::MeasureOptions;
-use super::appearance::site_at;
 use super::channels;
 use super::columns::{Flight, Place, Workspace};
-use super::meters::{FluxMeter, Meter, Prepared};
+use super::flux::FluxMeter;
+use super::meters::{Meter, Prepared};
 use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter;
 use super::tables::{Candidates, Model, Tables};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
-use crate::geometry::{Direction, Point};
 use crate::material::Site;
 use crate::sampling::{block, hash, warp};
 use crate::scene::Scene;
-use crate::sensor::FluxOf;
-use crate::shape::Form;
 use crate::spectrum::WavelengthDensity;
 
 /// Block of the direction in which a meter looks, out of the way of the blocks of a path's segments.
@@ -246,71 +243,27 @@ impl<'a> Meters<'a> {
         identity: (u32, u64, u32),
         workspace: &mut MeterWorkspace,
     ) {
-        let scene = self.tracer.tables.scene;
+        let tables = self.tracer.tables;
         let Some(drawn) = flux.draw([f64::from(u[0]), f64::from(u[1])]) else {
             return;
         };
-        let (point, mut normal, part) = (drawn.point, drawn.normal, drawn.part);
-        let mut front = flux.front;
-        let mut weights = [1.0_f32; 4];
-        match (flux.of, part) {
-            (FluxOf::Incident, _) => {}
-            (FluxOf::Leaving, None) => front = !front,
-            (FluxOf::Net, None) => {
-                // Both sides alternate: what passes backwards is counted negative.
-                front = hash::mix_64(identity.1 ^ u64::from(identity.2)) & 1 == 0;
-                workspace.sign[identity.0 as usize] = if front { 2.0 } else { -2.0 };
+        let slot = identity.0 as usize;
+        let start = match drawn.part {
+            None => flux.on_virtual(identity),
+            Some(part) => {
+                let wavelengths = &workspace.paths.wavelengths[slot];
+                flux.on_shape(tables, &drawn, part, wavelengths)
             }
-            (of, Some(part)) => {
-                let tables = self.tracer.tables;
-                let side = &tables.sides[2 * part as usize + usize::from(!front)];
-                let wavelengths = workspace.paths.wavelengths[identity.0 as usize];
-                let site = || drawn.site();
-                let reflectance = if side.model == Model::Black {
-                    [0.0; 4]
-                } else {
-                    tables.reflectance(side, &wavelengths, site)
-                };
-                let opacity = tables.opacity(side, site).unwrap_or(1.0);
-                weights = if of == FluxOf::Leaving {
-                    reflectance.map(|lane| opacity * lane)
-                } else {
-                    reflectance.map(|lane| opacity * (1.0 - lane))
-                };
-                // A path that starts with a weight below 1 would end by roulette at once: the sum takes it instead.
-                let lanes = &weights[..self.tracer.tables.lanes];
-                let greatest = match lanes.iter().copied().fold(0.0, f32::max) {
-                    greatest if greatest > 0.0 => greatest,
-                    _ => 1.0,
-                };
-                workspace.sign[identity.0 as usize] = f64::from(greatest);
-                weights = weights.map(|weight| weight / greatest);
-                if side.emits && tables.has_textures(side.radiance_tint) {
-                    let sign = match of {
-                        FluxOf::Leaving => 1.0,
-                        FluxOf::Net => -1.0,
-                        FluxOf::Incident | FluxOf::Absorbed => 0.0,
-                    };
-                    let radiance = tables.radiance(side, &wavelengths, site);
-                    let gathered = &mut workspace.paths.gathered;
-                    self.tracer.add(gathered, side.group, identity.0, |lane| {
-                        sign * radiance[lane] / greatest
-                    });
-                }
-            }
-            (FluxOf::Absorbed, None) => {}
-        }
-        if !front {
-            normal = -normal;
-        }
-        let place = Place {
-            point: scene.surfaces().to_kernel(point),
-            normal: normal.to_array().map(|x| x as f32),
-            clearance: scene.surfaces().clearance() as f32,
         };
+        workspace.sign[slot] = start.sign;
+        if let Some((group, radiance)) = start.emitted {
+            let gathered = &mut workspace.paths.gathered;
+            self.tracer
+                .add(gathered, group, identity.0, |lane| radiance[lane]);
+        }
         workspace.paths.vertices.push(
-            place,
-            weights.map(|weight| weight * FRAC_1_PI),
+            drawn.place(tables, start.front),
+            start.weights.map(|weight| weight * FRAC_1_PI),
             identity,
             [u[2], u[3]],
         );
@@ -414,47 +367,6 @@ fn leave_over_sphere(paths: &mut Workspace) {
             identity: (identity.slot[i], identity.key[i], identity.index[i]),
             light: [paths.uniforms[2][i], paths.uniforms[3][i]],
         });
-    }
-}
-
-impl FluxMeter<'_> {
-    /// A point by area; `None` in an opening.
-    fn draw(&self, u: [f64; 2]) -> Option<Drawn<'_>> {
-        let index = self
-            .forms
-            .partition_point(|(_, _, share)| *share <= u[0])
-            .min(self.forms.len() - 1);
-        let before = if index == 0 {
-            0.0
-        } else {
-            self.forms[index - 1].2
-        };
-        let (form, parts, share) = &self.forms[index];
-        let within = ((u[0] - before) / (share - before)).clamp(0.0, 1.0 - f64::EPSILON);
-        let sample = form.sample_area([within, u[1]])?;
-        let part = parts.map(|parts| parts[if parts.len() > 1 { sample.face } else { 0 }].0);
-        Some(Drawn {
-            form,
-            face: sample.face,
-            point: sample.point,
-            normal: sample.normal,
-            part,
-        })
-    }
-}
-
-/// A point of a surface with the normal of its front, and its part unless the surface is virtual.
-struct Drawn<'a> {
-    form: &'a Form,
-    face: usize,
-    point: Point,
-    normal: Direction,
-    part: Option<u32>,
-}
-
-impl Drawn<'_> {
-    fn site(&self) -> Site {
-        site_at(self.form, self.face, self.point)
     }
 }
 

@@ -14,6 +14,7 @@ use steradian_kernel::{HitBatch, MISS, RayBatch};
 
 use super::columns::Place;
 use super::exact;
+use super::flux::FluxMeter;
 use super::interaction::hit;
 use super::tables::{Model, OPAQUE, Side, Tables};
 use crate::geometry::{Direction, Point};
@@ -43,17 +44,6 @@ pub(super) enum Meter<'a> {
     },
     /// A surface.
     Flux(FluxMeter<'a>),
-}
-
-/// A surface whose flux is sampled.
-pub(super) struct FluxMeter<'a> {
-    /// Forms with the cumulative share of their sampling area.
-    pub forms: Vec<(&'a Form, Option<&'a [crate::shape::PartId]>, f64)>,
-    /// Sum of their sampling areas.
-    pub area: f64,
-    /// The front is counted.
-    pub front: bool,
-    pub of: FluxOf,
 }
 
 /// A reading before sampling.

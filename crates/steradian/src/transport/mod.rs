@@ -8,6 +8,7 @@ mod camera;
 mod channels;
 mod columns;
 mod exact;
+mod flux;
 mod interaction;
 mod measure;
 mod merge;

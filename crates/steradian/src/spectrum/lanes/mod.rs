@@ -15,11 +15,15 @@
 //!
 //! Rec.709 weights: ITU-R BT.709-6, item 3.2.
 
+mod error;
+mod spectral;
+
+pub use error::LaneError;
+use spectral::{by_wavelength, check_visible, colour, emission, scaled_to};
+
 use std::sync::Arc;
 
-use thiserror::Error;
-
-use super::{Action, Beyond, Curve, Grid, Illuminant, LaneValues, Sigmoid, VISIBLE};
+use super::{Action, Beyond, Curve, Grid, LaneValues, VISIBLE};
 
 /// Lanes of a spectrum.
 pub const MAX_LANES: usize = 4;
@@ -32,84 +36,6 @@ pub const RADIANT: &str = "radiant";
 
 /// Luminance weights of linear Rec.709.
 const REC709: [f64; 3] = [0.2126, 0.7152, 0.0722];
-
-/// What an author's lane values can be wrong about.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum LaneError {
-    /// No band, or more than four.
-    #[error("1 to 4 bands can be simulated in a run, not {0}")]
-    BandCount(usize),
-    /// The same band twice.
-    #[error("band `{0}` is named twice")]
-    DuplicateBand(String),
-    /// `[r, g, b]` outside `rgb`.
-    #[error("[r, g, b] values need `spectrum = \"rgb\"`; this scene has the bands {bands}")]
-    RgbInBands {
-        /// The scene's bands.
-        bands: String,
-    },
-    /// Bands in `rgb`.
-    #[error("values by band need `spectrum = {{ bands = [...] }}`; this scene is rgb")]
-    BandsInRgb,
-    /// An unknown band.
-    #[error("there is no band `{band}`; the scene's bands are {bands}")]
-    UnknownBand {
-        /// What was named.
-        band: String,
-        /// The scene's bands.
-        bands: String,
-    },
-    /// A band without a value.
-    #[error("no value for band `{0}`")]
-    MissingBand(String),
-    /// Reflectance out of range.
-    #[error("a reflectance lies between 0 and 1, not {0}")]
-    Reflectance(f64),
-    /// A spectrum that is no spectrum.
-    #[error("a spectrum's values are finite, not negative and not all zero")]
-    Spectrum,
-    /// A colour without luminance for a light given in photometric units.
-    #[error("a light given in photometric units needs some power in band `visible`")]
-    NoVisiblePower,
-    /// A radiometric light with several bands and no spectrum.
-    #[error(
-        "with several bands a light needs `spectrum = {{ {bands} }}`: the share of its power in each"
-    )]
-    NoShares {
-        /// The scene's bands.
-        bands: String,
-    },
-    /// Lumens where no band carries light.
-    #[error("no band of this scene carries light: name one `visible` (or `total`)")]
-    NoVisibleBand,
-    /// A table outside `spectral`.
-    #[error("a table of wavelengths needs `spectrum = \"spectral\"`")]
-    TableNotSpectral,
-    /// Bands in `spectral`.
-    #[error("values by band need `spectrum = {{ bands = [...] }}`; this scene is spectral")]
-    BandsInSpectral,
-    /// A colour in a range that has more than colours.
-    #[error(
-        "[r, g, b] says nothing about light outside 360 to 830 nm, and this scene goes from {} to {} nm: give a table", range[0], range[1]
-    )]
-    RgbBeyondVisible {
-        /// The scene's range in nm.
-        range: [f64; 2],
-    },
-    /// A light that has no power where the run has wavelengths.
-    #[error("this spectrum is 0 between {} and {} nm", range[0], range[1])]
-    NoPower {
-        /// The range in nm.
-        range: [f64; 2],
-    },
-    /// A range that is none.
-    #[error("wavelengths range from 280 nm to 4000 nm at most, not from {} to {} nm", range[0], range[1])]
-    Range {
-        /// The range in nm.
-        range: [f64; 2],
-    },
-}
 
 /// Lanes of one reflectance or light: `lanes` times the curve at the path's wavelengths.
 #[derive(Clone, Debug, PartialEq)]
@@ -239,6 +165,14 @@ impl Lanes {
         }
     }
 
+    /// Whether the colours of pictures and vertices can be told in the lanes.
+    ///
+    /// # Errors
+    /// If the run has wavelengths that no colour says anything about.
+    pub fn check_colours(&self) -> Result<(), LaneError> {
+        self.grid().map_or(Ok(()), check_visible)
+    }
+
     /// What a light or an emission of these lanes is in each channel.
     pub fn channels(&self, lanes: [f64; MAX_LANES], curve: Option<&Curve>) -> Vec<f64> {
         let Mode::Spectral { grid, responses } = &self.mode else {
@@ -316,7 +250,7 @@ impl Lanes {
             (LaneValues::Curve { curve, .. }, Some(_)) => {
                 by_wavelength(curve.with_beyond(Beyond::Held))
             }
-            (_, Some(grid)) => by_wavelength(self.colour(values, grid)?),
+            (_, Some(grid)) => by_wavelength(colour(values, grid)?),
         };
         let curve = lanes.curve.iter().flat_map(|curve| curve.values());
         let mut all = curve.chain(&lanes.lanes);
@@ -326,23 +260,6 @@ impl Lanes {
         }
     }
 
-    /// The smooth reflectance of an RGB colour.
-    fn colour(&self, values: &LaneValues, grid: &Grid) -> Result<Curve, LaneError> {
-        let LaneValues::Rgb(rgb) = values else {
-            return Err(LaneError::BandsInSpectral);
-        };
-        let range = grid.range();
-        if range[0] < VISIBLE[0] || range[1] > VISIBLE[1] {
-            return Err(LaneError::RgbBeyondVisible { range });
-        }
-        if let Some(&outside) = rgb.iter().find(|value| !(0.0..=1.0).contains(*value)) {
-            return Err(LaneError::Reflectance(outside));
-        }
-        Sigmoid::from_rgb(*rgb)
-            .curve(range, 1.0)
-            .map_err(|_| LaneError::Spectrum)
-    }
-
     /// Lanes of a light of radiant power `power` whose spectrum has this shape.
     pub fn radiant_power(
         &self,
@@ -350,7 +267,7 @@ impl Lanes {
         shape: Option<&LaneValues>,
     ) -> Result<LaneCurve, LaneError> {
         if let Some(grid) = self.grid() {
-            let (curve, watts) = self.emission(shape, grid)?;
+            let (curve, watts) = emission(shape, grid)?;
             return scaled_to(power, curve.integral(watts), curve, watts);
         }
         if shape.is_none() && !self.is_rgb() && self.count() > 1 {
@@ -370,7 +287,7 @@ impl Lanes {
         shape: Option<&LaneValues>,
     ) -> Result<LaneCurve, LaneError> {
         if let Some(grid) = self.grid() {
-            let curve = self.emission(shape, grid)?.0;
+            let curve = emission(shape, grid)?.0;
             let per_unit = curve.product_integral(Action::Photopic.weight(), VISIBLE);
             return scaled_to(lumens, per_unit, curve, VISIBLE);
         }
@@ -382,35 +299,6 @@ impl Lanes {
         }
         self.scaled(lumens / efficacy, shape, &weights)
             .map(LaneCurve::from)
-    }
-
-    /// The shape of a light's spectrum, and the wavelengths that its watts refer to; equal energy unless stated.
-    fn emission(
-        &self,
-        shape: Option<&LaneValues>,
-        grid: &Grid,
-    ) -> Result<(Curve, [f64; 2]), LaneError> {
-        let (curve, watts) = match shape {
-            None => (Curve::constant(1.0), VISIBLE),
-            Some(LaneValues::Uniform(value)) => (Curve::constant(*value), VISIBLE),
-            Some(LaneValues::Curve { curve, watts }) => (Curve::clone(curve), *watts),
-            Some(LaneValues::Bands(_)) => return Err(LaneError::BandsInSpectral),
-            Some(LaneValues::Rgb(rgb)) => {
-                let greatest = rgb.iter().fold(0.0, |a: f64, b| a.max(*b));
-                if greatest.is_nan() || greatest <= 0.0 {
-                    return Err(LaneError::Spectrum);
-                }
-                let colour = LaneValues::Rgb(rgb.map(|value| value / greatest));
-                let white = Illuminant::D65.curve();
-                (self.colour(&colour, grid)?.times(white), VISIBLE)
-            }
-        };
-        let valid = curve.min() >= 0.0 && curve.max().is_finite() && curve.max() > 0.0;
-        if valid {
-            Ok((curve, watts))
-        } else {
-            Err(LaneError::Spectrum)
-        }
     }
 
     fn scaled(
@@ -477,35 +365,6 @@ impl Lanes {
             .collect::<Vec<_>>()
             .join(", ")
     }
-}
-
-fn by_wavelength(curve: Curve) -> LaneCurve {
-    LaneCurve {
-        lanes: [1.0; MAX_LANES],
-        curve: Some(Arc::new(curve)),
-    }
-}
-
-/// Lanes of a light whose shape has the power `per_unit`.
-fn scaled_to(
-    power: f64,
-    per_unit: f64,
-    curve: Curve,
-    range: [f64; 2],
-) -> Result<LaneCurve, LaneError> {
-    if per_unit.is_nan() || per_unit <= 0.0 {
-        return Err(LaneError::NoPower { range });
-    }
-    let factor = power / per_unit;
-    let is_constant = curve.values().len() == 1 && curve.beyond() == Beyond::Held;
-    Ok(if is_constant {
-        [factor * curve.values()[0]; MAX_LANES].into()
-    } else {
-        LaneCurve {
-            lanes: [factor; MAX_LANES],
-            curve: Some(Arc::new(curve)),
-        }
-    })
 }
 
 #[cfg(test)]

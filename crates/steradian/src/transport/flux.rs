@@ -1,0 +1,174 @@
+//! Flux meters: a point drawn uniformly over a surface, and what light counts there.
+//!
+//! | what is counted | of what arrives, ρ reflectance, α opacity | of the emission |
+//! |---|---|---|
+//! | incident | 1 | |
+//! | leaving | αρ | 1 |
+//! | absorbed | α(1 − ρ) | |
+//! | net = incident − leaving | 1 − αρ | −1 |
+//!
+//! On a surface that does not block light, leaving is what arrives from the other side, and net the difference.
+
+use super::appearance::site_at;
+use super::columns::Place;
+use super::tables::{Lanes4, Model, Side, Tables};
+use crate::geometry::{Direction, Point};
+use crate::material::Site;
+use crate::sampling::hash;
+use crate::sensor::FluxOf;
+use crate::shape::{Form, PartId};
+use crate::spectrum::Wavelengths;
+
+/// A surface whose flux is sampled.
+pub(super) struct FluxMeter<'a> {
+    /// Forms with the cumulative share of their sampling area.
+    pub forms: Vec<(&'a Form, Option<&'a [PartId]>, f64)>,
+    /// Sum of their sampling areas.
+    pub area: f64,
+    /// The front is counted.
+    pub front: bool,
+    pub of: FluxOf,
+}
+
+/// How a path starts at a point of a surface.
+pub(super) struct Start {
+    /// It looks at what is in front.
+    pub front: bool,
+    /// Of what arrives.
+    pub weights: Lanes4,
+    /// What all that the path gathers is multiplied with.
+    pub sign: f64,
+    /// Group and radiance of an emission that varies over the surface, as far as it counts.
+    pub emitted: Option<(u32, Lanes4)>,
+}
+
+impl FluxMeter<'_> {
+    /// A point by area; `None` in an opening.
+    pub fn draw(&self, u: [f64; 2]) -> Option<Drawn<'_>> {
+        let index = self
+            .forms
+            .partition_point(|(_, _, share)| *share <= u[0])
+            .min(self.forms.len() - 1);
+        let before = if index == 0 {
+            0.0
+        } else {
+            self.forms[index - 1].2
+        };
+        let (form, parts, share) = &self.forms[index];
+        let within = ((u[0] - before) / (share - before)).clamp(0.0, 1.0 - f64::EPSILON);
+        let sample = form.sample_area([within, u[1]])?;
+        let part = parts.map(|parts| parts[if parts.len() > 1 { sample.face } else { 0 }].0);
+        Some(Drawn {
+            form,
+            face: sample.face,
+            point: sample.point,
+            normal: sample.normal,
+            part,
+        })
+    }
+
+    /// On a surface that does not block light both sides of a net alternate: what passes backwards is counted negative.
+    pub fn on_virtual(&self, (_, key, index): (u32, u64, u32)) -> Start {
+        let (front, sign) = match self.of {
+            FluxOf::Incident | FluxOf::Absorbed => (self.front, 1.0),
+            FluxOf::Leaving => (!self.front, 1.0),
+            FluxOf::Net if hash::mix_64(key ^ u64::from(index)) & 1 == 0 => (true, 2.0),
+            FluxOf::Net => (false, -2.0),
+        };
+        Start {
+            front,
+            weights: [1.0; 4],
+            sign,
+            emitted: None,
+        }
+    }
+
+    /// A path that started with a weight below 1 would end by roulette at once: the sign takes the weight instead.
+    pub fn on_shape(
+        &self,
+        tables: &Tables<'_>,
+        drawn: &Drawn<'_>,
+        part: u32,
+        wavelengths: &Wavelengths,
+    ) -> Start {
+        let side = &tables.sides[2 * part as usize + usize::from(!self.front)];
+        let weights = self.weights(tables, side, drawn, wavelengths);
+        let lanes = weights[..tables.lanes].iter().copied();
+        let greatest = match lanes.fold(0.0, f32::max) {
+            greatest if greatest > 0.0 => greatest,
+            _ => 1.0,
+        };
+        let emitted = self.emitted(tables, side, drawn, wavelengths);
+        Start {
+            front: self.front,
+            weights: weights.map(|weight| weight / greatest),
+            sign: f64::from(greatest),
+            emitted: emitted.map(|radiance| (side.group, radiance.map(|lane| lane / greatest))),
+        }
+    }
+
+    fn weights(
+        &self,
+        tables: &Tables<'_>,
+        side: &Side,
+        drawn: &Drawn<'_>,
+        wavelengths: &Wavelengths,
+    ) -> Lanes4 {
+        let reflectance = match (self.of, side.model) {
+            (FluxOf::Incident, _) => return [1.0; 4],
+            (_, Model::Black) => [0.0; 4],
+            _ => tables.reflectance(side, wavelengths, || drawn.site()),
+        };
+        let opacity = tables.opacity(side, || drawn.site()).unwrap_or(1.0);
+        reflectance.map(|lane| match self.of {
+            FluxOf::Incident => 1.0,
+            FluxOf::Leaving => opacity * lane,
+            FluxOf::Absorbed => opacity * (1.0 - lane),
+            FluxOf::Net => 1.0 - opacity * lane,
+        })
+    }
+
+    /// Emission that is the same everywhere has a closed form.
+    fn emitted(
+        &self,
+        tables: &Tables<'_>,
+        side: &Side,
+        drawn: &Drawn<'_>,
+        wavelengths: &Wavelengths,
+    ) -> Option<Lanes4> {
+        let sign = match self.of {
+            FluxOf::Leaving => 1.0,
+            FluxOf::Net => -1.0,
+            FluxOf::Incident | FluxOf::Absorbed => return None,
+        };
+        let varies = side.emits && tables.has_textures(side.radiance_tint);
+        let radiance = varies.then(|| tables.radiance(side, wavelengths, || drawn.site()))?;
+        Some(radiance.map(|lane| sign * lane))
+    }
+}
+
+/// A point of a surface with the normal of its front, and its part unless the surface is virtual.
+pub(super) struct Drawn<'a> {
+    form: &'a Form,
+    face: usize,
+    point: Point,
+    normal: Direction,
+    pub part: Option<u32>,
+}
+
+impl Drawn<'_> {
+    fn site(&self) -> Site {
+        site_at(self.form, self.face, self.point)
+    }
+
+    /// The point, facing the front or the back.
+    pub fn place(&self, tables: &Tables<'_>, front: bool) -> Place {
+        let surfaces = tables.scene.surfaces();
+        let normal = if front { self.normal } else { -self.normal };
+        Place {
+            point: surfaces.to_kernel(self.point),
+            normal: normal.to_array().map(|x| x as f32),
+            clearance: surfaces.clearance() as f32,
+        }
+    }
+}

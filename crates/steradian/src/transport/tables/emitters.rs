@@ -1,0 +1,184 @@
+//! Emitters: the lights that next-event estimation samples, and how likely each is chosen.
+
+use super::sides::Tints;
+use super::{Emitter, EmitterShape, NO_EMITTER};
+use crate::geometry::{Frame, Point};
+use crate::light::{Kind, Light};
+use crate::material::Tint;
+use crate::scene::Scene;
+use crate::shape::{Form, ShapeId, Sphere, SpherePort};
+
+/// Emitters, those with extent first, and the number of that of each light.
+pub(super) fn emitters(scene: &Scene, tints: &mut Tints) -> (Vec<Emitter>, Vec<u32>) {
+    let lights = scene.lights();
+    let (delta, extent): (Vec<_>, Vec<_>) =
+        (0..lights.len()).partition(|&index| lights[index].is_delta());
+    let mut emitters = Vec::new();
+    let mut emitter_of_light = vec![NO_EMITTER; lights.len()];
+    for index in extent.into_iter().chain(delta) {
+        if let Some(emitter) = emitter(scene, &lights[index], tints) {
+            emitter_of_light[index] = emitters.len() as u32;
+            emitters.push(emitter);
+        }
+    }
+    (emitters, emitter_of_light)
+}
+
+fn emitter(scene: &Scene, light: &Light, tints: &mut Tints) -> Option<Emitter> {
+    let shape = emitter_shape(scene, light)?;
+    let area = match &light.kind {
+        Kind::Area(area) => Some(area),
+        _ => None,
+    };
+    let textures = area.map_or(&[][..], |area| &area.textures);
+    let (power, tint) = tints.of_light(light, textures);
+    Some(Emitter {
+        shape,
+        power,
+        tint,
+        textured: !textures.is_empty(),
+        surface: area.map(|area| area.shape),
+        group: light.group,
+        two_sided: area.is_some_and(|area| area.two_sided),
+        probability: 0.0,
+    })
+}
+
+fn emitter_shape(scene: &Scene, light: &Light) -> Option<EmitterShape> {
+    let kernel = |point: Point| scene.surfaces().to_kernel(point);
+    let single = |v: [f64; 3]| v.map(|x| x as f32);
+    match &light.kind {
+        Kind::Point(light) => Some(EmitterShape::Point {
+            position: kernel(light.position),
+        }),
+        Kind::Spot(light) => Some(EmitterShape::Spot {
+            position: kernel(light.position),
+            axis: single(light.axis.to_array()),
+            beam: light.beam,
+        }),
+        Kind::Directional { direction, .. } => Some(EmitterShape::Directional {
+            towards: single((-*direction).to_array()),
+        }),
+        Kind::Environment { .. } => None,
+        Kind::Area(light) => area_shape(scene, light.shape),
+    }
+}
+
+fn area_shape(scene: &Scene, id: ShapeId) -> Option<EmitterShape> {
+    let surfaces = scene.surfaces();
+    let kernel = |point: Point| surfaces.to_kernel(point);
+    let single = |v: [f64; 3]| v.map(|x| x as f32);
+    Some(match &surfaces.shape(id).form {
+        Form::Parallelogram(form) => EmitterShape::Parallelogram {
+            origin: kernel(form.origin),
+            edges: form.edges.map(|edge| single(edge.to_array())),
+            normal: single(form.normal.to_array()),
+            area: form.area as f32,
+        },
+        Form::Mesh(mesh) => EmitterShape::Triangles {
+            first: surfaces.first_primitive(id),
+            cumulative: mesh.cumulative_share().map(|share| share as f32).collect(),
+            area: mesh.area() as f32,
+        },
+        Form::Sphere(sphere) => sphere_shape(sphere, kernel(sphere.center)),
+        Form::Disc(disc) => {
+            let frame = Frame::from_normal(disc.normal);
+            EmitterShape::Disc {
+                center: kernel(disc.center),
+                normal: single(disc.normal.to_array()),
+                axes: [
+                    single(frame.tangent().to_array()),
+                    single(frame.bitangent().to_array()),
+                ],
+                inner: disc.inner_radius as f32,
+                outer: disc.radius as f32,
+                area: disc.area() as f32,
+            }
+        }
+        Form::Plane { .. } => return None,
+    })
+}
+
+fn sphere_shape(sphere: &Sphere, center: [f32; 3]) -> EmitterShape {
+    let port = |port: &SpherePort| {
+        (
+            port.direction.to_array().map(|x| x as f32),
+            port.cos_half_angle as f32,
+        )
+    };
+    let ports = sphere.ports.iter().map(port).collect();
+    EmitterShape::Sphere {
+        center,
+        radius: sphere.radius as f32,
+        inside: sphere.inside,
+        ports,
+    }
+}
+
+/// Sets each emitter's probability in proportion to its power; returns the cumulative ones.
+pub(super) fn choose_by_power(scene: &Scene, emitters: &mut [Emitter], tints: &[Tint]) -> Vec<f32> {
+    let lanes = scene.lanes();
+    // By wavelength the lanes of a light are all alike.
+    let weights = if lanes.is_spectral() {
+        vec![1.0]
+    } else {
+        lanes.radiant_weights()
+    };
+    let extent = scene
+        .surfaces()
+        .bounds()
+        .map_or(1.0, |bounds| bounds.diagonal().to_metres());
+    let power = |emitter: &Emitter| -> f64 {
+        let lanes: f64 = weights
+            .iter()
+            .zip(&emitter.power)
+            .map(|(w, x)| w * f64::from(*x))
+            .sum();
+        lanes * emitter.shape.power_factor(extent) * emitter.spectral_power(scene, tints)
+    };
+    let powers: Vec<f64> = emitters.iter().map(power).collect();
+    let total: f64 = powers.iter().sum();
+    let mut sum = 0.0;
+    let count = emitters.len() as f64;
+    let step = |(emitter, power): (&mut Emitter, f64)| {
+        // A light of no luminance in the mean still has lanes: a floor keeps every light possible.
+        let probability = if total > 0.0 {
+            0.9 * power / total + 0.1 / count
+        } else {
+            1.0 / count
+        };
+        emitter.probability = probability as f32;
+        sum += probability;
+        sum as f32
+    };
+    emitters.iter_mut().zip(powers).map(step).collect()
+}
+
+impl Emitter {
+    /// Power over all wavelengths of the run, of lanes of 1.
+    fn spectral_power(&self, scene: &Scene, tints: &[Tint]) -> f64 {
+        let Some(grid) = scene.lanes().grid() else {
+            return 1.0;
+        };
+        let [low, high] = grid.range();
+        let tint = tints.get(self.tint as usize);
+        tint.and_then(|tint| tint.hue.curve)
+            .map_or(high - low, |id| scene.curve(id).integral([low, high]))
+    }
+}
+
+impl EmitterShape {
+    /// Flux per unit of power; parallel light counts with the cross-section of the scene.
+    fn power_factor(&self, extent: f64) -> f64 {
+        use std::f64::consts::PI;
+        match self {
+            Self::Parallelogram { area, .. }
+            | Self::Triangles { area, .. }
+            | Self::Disc { area, .. } => PI * f64::from(*area),
+            Self::Sphere { radius, .. } => 4.0 * PI * PI * f64::from(radius * radius),
+            Self::Point { .. } => 4.0 * PI,
+            Self::Spot { beam, .. } => beam.solid_angle().to_steradians(),
+            Self::Directional { .. } => 0.25 * PI * extent * extent,
+        }
+    }
+}

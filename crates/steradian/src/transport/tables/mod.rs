@@ -1,0 +1,253 @@
+//! The scene as the batched loops read it: f32 tables in kernel coordinates, one entry a side of a part, one a light.
+
+mod emitters;
+mod sides;
+
+use std::sync::Arc;
+
+use emitters::{choose_by_power, emitters};
+use sides::{Tints, side};
+
+use crate::light::Beam;
+use crate::material::{ColorLanes, Opacity, Tint};
+use crate::scene::Scene;
+use crate::shape::ShapeId;
+use crate::spectrum::{BakedCurve, Curve, MAX_LANES};
+
+/// Lanes of the batched loops.
+pub(super) type Lanes4 = [f32; MAX_LANES];
+
+/// Meters sample every light up to this number of lights, and one chosen by power beyond.
+pub(super) const ALL_LIGHTS: usize = 10;
+
+/// How a side reflects.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub(super) enum Model {
+    Black,
+    Lambertian,
+    Mirror,
+}
+
+/// One side of a part: what it reflects and emits.
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Side {
+    /// Where it is the same everywhere and at every wavelength.
+    pub reflectance: Lanes4,
+    /// Number among the tints, or [`NO_TINT`].
+    pub reflectance_tint: u32,
+    pub radiance: Lanes4,
+    pub radiance_tint: u32,
+    /// Number among the opacities; none of that number if it is opaque.
+    pub opacity: u32,
+    pub model: Model,
+    /// Number of the emitter in [`Tables::emitters`], or [`NO_EMITTER`] where next-event estimation cannot find it.
+    pub emitter: u32,
+    pub group: u32,
+    pub emits: bool,
+}
+
+impl Side {
+    /// False only if it reflects nothing of a channel.
+    pub fn may_reflect(&self, channel: usize) -> bool {
+        self.reflectance_tint != NO_TINT
+            || self.reflectance.get(channel).is_none_or(|lane| *lane > 0.0)
+    }
+}
+
+/// Marks what is the same everywhere and at every wavelength.
+pub(super) const NO_TINT: u32 = u32::MAX;
+
+/// Marks sides that let nothing pass.
+pub(super) const OPAQUE: u32 = u32::MAX;
+
+/// Marks emission that only a surface's own directions find.
+pub(super) const NO_EMITTER: u32 = u32::MAX;
+
+/// A light that next-event estimation samples.
+#[derive(Clone, Debug)]
+pub(super) struct Emitter {
+    pub shape: EmitterShape,
+    /// Radiance, intensity, or irradiance facing the light, by kind.
+    pub power: Lanes4,
+    pub tint: u32,
+    /// The emission has textures.
+    pub textured: bool,
+    /// The shape that emits.
+    pub surface: Option<ShapeId>,
+    pub group: u32,
+    pub two_sided: bool,
+    /// Probability of this emitter when one is chosen by power.
+    pub probability: f32,
+}
+
+/// Geometry of an emitter.
+#[derive(Clone, Debug)]
+pub(super) enum EmitterShape {
+    Parallelogram {
+        origin: [f32; 3],
+        edges: [[f32; 3]; 2],
+        normal: [f32; 3],
+        area: f32,
+    },
+    /// Triangles `first..` of the scene, chosen by cumulative share of the area.
+    Triangles {
+        first: u32,
+        cumulative: Vec<f32>,
+        area: f32,
+    },
+    /// Seen from outside a cone; from inside, or with ports, by area.
+    Sphere {
+        center: [f32; 3],
+        radius: f32,
+        inside: bool,
+        ports: Vec<([f32; 3], f32)>,
+    },
+    Disc {
+        center: [f32; 3],
+        normal: [f32; 3],
+        axes: [[f32; 3]; 2],
+        inner: f32,
+        outer: f32,
+        area: f32,
+    },
+    Point {
+        position: [f32; 3],
+    },
+    Spot {
+        position: [f32; 3],
+        axis: [f32; 3],
+        beam: Beam,
+    },
+    Directional {
+        towards: [f32; 3],
+    },
+}
+
+impl EmitterShape {
+    pub fn is_delta(&self) -> bool {
+        matches!(
+            self,
+            Self::Point { .. } | Self::Spot { .. } | Self::Directional { .. }
+        )
+    }
+}
+
+/// All tables of a scene.
+pub(super) struct Tables<'a> {
+    pub scene: &'a Scene,
+    pub lanes: usize,
+    /// Side 2·part is the front of a part, 2·part + 1 its back.
+    pub sides: Vec<Side>,
+    pub emitters: Vec<Emitter>,
+    /// Number of emitters with extent; they come first.
+    pub extended: usize,
+    /// Cumulative probability of the emitters.
+    pub cumulative: Vec<f32>,
+    /// Radiance of everywhere, by group, with its tint.
+    pub environment: Vec<(u32, Lanes4, u32)>,
+    /// What varies over surfaces or with the wavelength.
+    pub tints: Vec<Tint>,
+    /// Of sides that are not opaque.
+    pub opacities: Vec<Opacity>,
+    /// What curves and colours are in the lanes.
+    pub colors: ColorLanes,
+    /// The channels of a spectral run.
+    pub responses: Vec<BakedCurve>,
+}
+
+impl<'a> Tables<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
+        let mut tints = Tints::default();
+        let (mut emitters, emitter_of_light) = emitters(scene, &mut tints);
+        let extended = emitters.iter().filter(|emitter| !emitter.shape.is_delta());
+        let extended = extended.count();
+        let cumulative = choose_by_power(scene, &mut emitters, &tints.tints);
+        let sides = scene.parts().iter().flat_map(|part| {
+            let light = part.light.map(|id| (id, emitter_of_light[id.0 as usize]));
+            [
+                side(scene, part.front, light, true, &mut tints),
+                side(scene, part.back, light, false, &mut tints),
+            ]
+        });
+        let sides: Vec<_> = sides.collect();
+        let environment = scene.environments().map(|light| {
+            let (lanes, tint) = tints.of_light(light, &[]);
+            (light.group, lanes, tint)
+        });
+        let environment = environment.collect();
+        let grid = scene.lanes().grid();
+        let bake = |curve: &Arc<Curve>| grid.map(|grid| grid.bake(curve));
+        Self {
+            scene,
+            lanes: scene.lanes().carried(),
+            sides,
+            emitters,
+            extended,
+            cumulative,
+            environment,
+            responses: scene.lanes().responses().iter().filter_map(bake).collect(),
+            colors: color_lanes(scene),
+            tints: tints.tints,
+            opacities: tints.opacities,
+        }
+    }
+
+    /// Whether a tint varies over the surface.
+    pub fn has_textures(&self, tint: u32) -> bool {
+        let tint = self.tints.get(tint as usize);
+        tint.is_some_and(|tint| !tint.textures.is_empty())
+    }
+
+    /// Emitters for the vertices of a path: one chosen by power among all.
+    pub fn for_surfaces(&self) -> Candidates {
+        Candidates {
+            count: self.emitters.len(),
+            all: false,
+        }
+    }
+
+    /// Emitters for a meter; without `delta` those of lights without extent are left out.
+    pub fn for_meters(&self, delta: bool) -> Candidates {
+        let count = if delta {
+            self.emitters.len()
+        } else {
+            self.extended
+        };
+        Candidates {
+            count,
+            all: count <= ALL_LIGHTS,
+        }
+    }
+
+    /// Probability of an emitter among candidates.
+    #[inline(always)]
+    pub fn probability(&self, candidates: Candidates, emitter: usize) -> f32 {
+        if candidates.all {
+            1.0
+        } else {
+            self.emitters[emitter].probability / self.cumulative[candidates.count - 1]
+        }
+    }
+}
+
+/// The first emitters of the tables, from which next-event estimation samples all, or one by power.
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Candidates {
+    pub count: usize,
+    pub all: bool,
+}
+
+fn color_lanes(scene: &Scene) -> ColorLanes {
+    match scene.lanes().grid() {
+        Some(grid) => ColorLanes::Spectral {
+            curves: scene
+                .curves()
+                .iter()
+                .map(|curve| grid.bake(curve))
+                .collect(),
+            grid: *grid,
+        },
+        None if scene.lanes().is_rgb() => ColorLanes::Rgb,
+        None => ColorLanes::Grey,
+    }
+}
