@@ -24,11 +24,11 @@ fn table(curve: Curve) -> LaneValues {
 /// A reflectance that rises from blue to red, with a corner.
 fn rust() -> Curve {
     let samples = vec![(400.0, 0.1), (550.0, 0.2), (600.0, 0.7), (700.0, 0.8)];
-    Curve::new(samples, Beyond::Held).unwrap()
+    Curve::new(samples, Beyond::Held).expect("samples in order")
 }
 
 fn halogen() -> Curve {
-    blackbody(2856.0, VISIBLE, 0.5).unwrap()
+    blackbody(2856.0, VISIBLE, 0.5).expect("a temperature")
 }
 
 fn with_response(mut sensor: SensorDescription, response: Response) -> SensorDescription {
@@ -43,7 +43,8 @@ fn lamp(spectrum: LaneValues) -> SceneDescription {
     let mut scene = scene([], [], [lamp]);
     scene.spectrum = spectral();
     let at = |name: &str| sensor(name, irradiance_at([(p(0.0, 0.0, 0.0), UP)]));
-    let weights = Curve::new(vec![(500.0, 0.0), (600.0, 1.0)], Beyond::Zero).unwrap();
+    let weights =
+        Curve::new(vec![(500.0, 0.0), (600.0, 1.0)], Beyond::Zero).expect("samples in order");
     let custom = Response::Table {
         name: "ramp".into(),
         curve: Arc::new(weights),

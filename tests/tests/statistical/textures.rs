@@ -24,7 +24,7 @@ fn texture(pattern: Pattern) -> Texture {
 
 /// A picture of two columns, sharp between them.
 fn halves(left: [f32; 4], right: [f32; 4]) -> Texture {
-    let mut bitmap = Bitmap::new(2, 1, Texels::Float(vec![left, right])).unwrap();
+    let mut bitmap = Bitmap::new(2, 1, Texels::Float(vec![left, right])).expect("two texels");
     bitmap.interpolation = Interpolation::Nearest;
     texture(Pattern::Bitmap(Arc::new(bitmap)))
 }
