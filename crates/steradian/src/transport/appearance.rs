@@ -78,11 +78,18 @@ impl Tables<'_> {
     }
 
     /// What a surface knows of a point that a ray met.
+    #[inline(always)]
     pub fn site(&self, hit: &Hit) -> Site {
+        self.site_on(hit.primitive, hit.weights, hit.place.point)
+    }
+
+    /// The numbers come one by one, so that a hit need not leave the registers for the few surfaces that ask.
+    #[inline(never)]
+    fn site_on(&self, primitive: u32, weights: [f32; 2], point: [f32; 3]) -> Site {
         let surfaces = self.scene.surfaces();
-        let (shape, face) = surfaces.face_of(hit.primitive);
-        let point = surfaces.origin() + Vector::from(hit.place.point.map(f64::from));
-        site_of(&surfaces.shape(shape).form, face, hit.weights, point)
+        let (shape, face) = surfaces.face_of(primitive);
+        let point = surfaces.origin() + Vector::from(point.map(f64::from));
+        site_of(&surfaces.shape(shape).form, face, weights, point)
     }
 
     /// The same for the point of an emitter that these numbers chose; `end` is near it.

@@ -4,6 +4,7 @@ use steradian_kernel::{HitBatch, RayBatch};
 
 use super::profile::StopWatch;
 use super::tables::{Emitter, Tables};
+use super::transmittance::Transmittance;
 use crate::material::Site;
 use crate::spectrum::{MAX_LANES, Wavelengths};
 
@@ -236,14 +237,13 @@ impl Place {
 #[derive(Default)]
 pub(super) struct Shadows {
     pub rays: RayBatch,
-    pub occluded: Vec<bool>,
     /// Irradiance per unit of the emitter's power, weighted.
     pub gain: Vec<f32>,
     pub emitter: Vec<u32>,
     /// The numbers that the emitter was sampled with, where its emission has textures.
     pub numbers: Vec<[f32; 2]>,
-    /// What part of the light gets through where surfaces are not opaque.
-    pub transmittance: Vec<f32>,
+    /// What part of the light gets along the shadow rays.
+    pub transmittance: Transmittance,
 }
 
 impl Shadows {

@@ -3,7 +3,7 @@
 use steradian_kernel::{InstructionSet, RayBatch};
 
 use super::tables::Tables;
-use super::transmittance::transmittance;
+use super::transmittance::Transmittance;
 use crate::geometry::{Direction, Point};
 use crate::light::Kind;
 use crate::scene::Scene;
@@ -51,13 +51,13 @@ pub(super) fn irradiance(
         );
         shadows.push((light, sample));
     }
-    let (mut occluded, mut through) = (Vec::new(), Vec::new());
-    let set = InstructionSet::detect();
-    transmittance(tables, &rays, &mut occluded, &mut through, set);
-    for ((light, sample), through) in shadows.iter().zip(through) {
+    let mut transmittance = Transmittance::default();
+    transmittance.trace(tables, &rays, InstructionSet::detect());
+    for (i, (light, sample)) in shadows.iter().enumerate() {
+        let through = f64::from(transmittance.of(i));
         let lanes = sample
             .irradiance
-            .map(|lane| lane.to_watts_per_square_metre() * f64::from(through));
+            .map(|lane| lane.to_watts_per_square_metre() * through);
         let column = &mut columns[sample.group as usize * count..][..count];
         column
             .iter_mut()

@@ -84,14 +84,11 @@ pub(super) fn hit(tables: &Tables, rays: &RayBatch, hits: &HitBatch, i: usize) -
 impl Hit {
     /// The hit of a ray that had come `travelled` metres before it passed through a surface.
     #[inline(always)]
-    pub fn after(mut self, travelled: f32) -> Self {
-        if travelled > 0.0 {
-            let way = travelled + self.distance_squared.sqrt();
-            let back = Vec3::from_array(self.viewer) * way;
-            self.origin = (Vec3::from_array(self.place.point) + back).into();
-            self.distance_squared = way * way;
-        }
-        self
+    pub fn set_back(&mut self, travelled: f32) {
+        let way = travelled + self.distance_squared.sqrt();
+        let back = Vec3::from_array(self.viewer) * way;
+        self.origin = (Vec3::from_array(self.place.point) + back).into();
+        self.distance_squared = way * way;
     }
 }
 

@@ -18,7 +18,6 @@ use super::path::Tracer;
 use super::profile::Stage;
 use super::tables::{Candidates, EmitterShape, Tables};
 use super::towards::{cone, towards};
-use super::transmittance::transmittance;
 
 /// One pass over the vertices of a batch.
 pub(super) struct NextEvent<'a> {
@@ -157,15 +156,11 @@ impl NextEvent<'_> {
         workspace.watch.lap(Stage::Lights);
         let (shadows, vertices) = (&mut workspace.shadows, &workspace.vertices);
         let tables = self.tracer.tables;
-        transmittance(
-            tables,
-            &shadows.rays,
-            &mut shadows.occluded,
-            &mut shadows.transmittance,
-            self.tracer.set,
-        );
+        shadows
+            .transmittance
+            .trace(tables, &shadows.rays, self.tracer.set);
         for i in 0..vertices.len() {
-            let gain = shadows.gain[i] * shadows.transmittance[i];
+            let gain = shadows.gain[i] * shadows.transmittance.of(i);
             if gain == 0.0 {
                 continue;
             }

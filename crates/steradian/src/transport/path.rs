@@ -108,17 +108,19 @@ impl Tracer<'_> {
         let tables = self.tables;
         for i in 0..workspace.flights.len() {
             let slot = workspace.flights.identity.slot[i];
-            let wavelengths = workspace.wavelengths[slot as usize];
+            let wavelengths = &workspace.wavelengths[slot as usize];
             if workspace.hits.primitive[i] == MISS {
-                self.escape(&workspace.flights, i, &wavelengths, &mut workspace.gathered);
+                self.escape(&workspace.flights, i, wavelengths, &mut workspace.gathered);
                 continue;
             }
-            let hit = hit(tables, &workspace.flights.rays, &workspace.hits, i)
-                .after(workspace.flights.travelled[i]);
+            let mut hit = hit(tables, &workspace.flights.rays, &workspace.hits, i);
+            if workspace.flights.travelled[i] > 0.0 {
+                hit.set_back(workspace.flights.travelled[i]);
+            }
             let side = &tables.sides[hit.side as usize];
             if side.emits {
                 let weight = self.emission_weight(side, &hit, workspace.flights.pdf[i], candidates);
-                let radiance = tables.radiance(side, &wavelengths, || tables.site(&hit));
+                let radiance = tables.radiance(side, wavelengths, || tables.site(&hit));
                 self.add(&mut workspace.gathered, side.group, slot, |lane| {
                     workspace.flights.throughput[lane][i] * radiance[lane] * weight
                 });
@@ -134,7 +136,7 @@ impl Tracer<'_> {
             if side.model == Model::Black {
                 continue;
             }
-            let reflectance = tables.reflectance(side, &wavelengths, || tables.site(&hit));
+            let reflectance = tables.reflectance(side, wavelengths, || tables.site(&hit));
             match side.model {
                 Model::Black => {}
                 Model::Lambertian => push(
@@ -177,6 +179,7 @@ impl Tracer<'_> {
     }
 
     /// Whether a path goes through a side, with probability 1 − α.
+    #[inline(always)]
     fn passes(&self, flights: &Flights, i: usize, side: &Side, hit: &Hit) -> bool {
         let opacity = self.tables.opacity(side, || self.tables.site(hit));
         let (_, key, index) = flights.identity.at(i);

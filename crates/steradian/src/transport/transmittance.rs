@@ -8,23 +8,36 @@ use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
 use super::interaction::hit;
 use super::tables::Tables;
 
-/// T of every segment.
-pub(super) fn transmittance(
-    tables: &Tables<'_>,
-    rays: &RayBatch,
-    occluded: &mut Vec<bool>,
-    out: &mut Vec<f32>,
-    set: InstructionSet,
-) {
-    tables.scene.surfaces().occluded(rays, occluded, set);
-    out.clear();
-    out.extend(
-        occluded
-            .iter()
-            .map(|occluded| if *occluded { 0.0 } else { 1.0 }),
-    );
-    if !tables.opacities.is_empty() {
-        Stepping::new(rays, occluded).follow(tables, out, set);
+/// What gets along the segments of a batch.
+#[derive(Default)]
+pub(super) struct Transmittance {
+    stopped: Vec<bool>,
+    /// T of each segment; empty where every surface is opaque.
+    parts: Vec<f32>,
+}
+
+impl Transmittance {
+    /// Traces the segments.
+    pub fn trace(&mut self, tables: &Tables<'_>, rays: &RayBatch, set: InstructionSet) {
+        tables
+            .scene
+            .surfaces()
+            .occluded(rays, &mut self.stopped, set);
+        self.parts.clear();
+        if !tables.opacities.is_empty() {
+            self.parts.resize(self.stopped.len(), 0.0);
+            Stepping::new(rays, &self.stopped).follow(tables, &mut self.parts, set);
+        }
+    }
+
+    /// T of a segment.
+    #[inline(always)]
+    pub fn of(&self, segment: usize) -> f32 {
+        if self.stopped[segment] {
+            self.parts.get(segment).copied().unwrap_or(0.0)
+        } else {
+            1.0
+        }
     }
 }
 
