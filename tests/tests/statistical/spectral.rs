@@ -13,6 +13,8 @@ use steradian_tests::measuring::{measured, reading, samples};
 use steradian_tests::scenes::*;
 use steradian_tests::{assert_agrees, assert_close, assert_same};
 
+use super::spectrum::desk;
+
 fn spectral() -> SpectrumMode {
     SpectrumMode::Spectral { range: VISIBLE }
 }
@@ -169,27 +171,11 @@ fn an_integrating_sphere_multiplies_each_wavelength() {
     }
 }
 
-/// A panel and a lamp by lumens over grey paper: lux do not depend on the mode.
-fn grey(spectrum: SpectrumMode) -> SceneDescription {
-    let panel = square_facing_down(0.5, 1.5).emitting(emitted_lumens(800.0));
-    let mut desk = scene(
-        [lambertian("paper", 0.7)],
-        [square(4.0, 0.0).made_of("paper"), panel],
-        [point_light(p(1.0, 1.0, 1.0), luminous_flux(300.0))],
-    );
-    desk.spectrum = spectrum;
-    desk.sensors = vec![
-        sensor("desk", irradiance_at([(p(0.3, 0.1, 0.0), UP)])),
-        sensor("ceiling", irradiance_at([(p(0.3, 0.1, 2.0), DOWN)])),
-        sensor("paper", radiance_along(p(0.3, 0.1, 1.0), DOWN)),
-    ];
-    desk
-}
-
+/// Lumens over grey paper: lux do not depend on the mode.
 #[test]
 fn grey_scenes_agree_in_all_modes() {
     let all = [spectral(), SpectrumMode::Rgb, visible()];
-    let [spectral, rgb, band] = all.map(|mode| measured(&grey(mode), &samples(1 << 16)));
+    let [spectral, rgb, band] = all.map(|mode| measured(&desk(mode, 179.0), &samples(1 << 16)));
     for name in ["desk", "ceiling", "paper"] {
         let of = |found| reading(found, name).estimate;
         assert_same(name, &of(&spectral), &of(&rgb));

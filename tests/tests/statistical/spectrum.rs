@@ -7,7 +7,7 @@ use steradian_tests::scenes::*;
 use steradian_tests::{assert_agrees, assert_close};
 
 /// A panel and a lamp over paper, by lumens, read in lux.
-fn desk(spectrum: SpectrumMode, efficacy: f64) -> SceneDescription {
+pub fn desk(spectrum: SpectrumMode, efficacy: f64) -> SceneDescription {
     let panel = square_facing_down(0.5, 1.5).emitting(emitted_lumens(800.0));
     let mut desk = scene(
         [lambertian("paper", 0.7)],

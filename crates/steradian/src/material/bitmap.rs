@@ -52,9 +52,9 @@ impl Texels {
             }
             Self::Linear8(texels) => texels[index].map(|code| f32::from(code) / 255.0),
             Self::Srgb16(texels) => {
-                let [r, g, b, a] = texels[index].map(|code| f64::from(code) / 65_535.0);
-                let [r, g, b] = [r, g, b].map(|code| linear_from_srgb(code) as f32);
-                [r, g, b, a as f32]
+                let [r, g, b, a] = texels[index];
+                let [r, g, b] = [r, g, b].map(|code| SRGB_16[usize::from(code)]);
+                [r, g, b, (f64::from(a) / 65_535.0) as f32]
             }
             Self::Linear16(texels) => texels[index].map(|code| f32::from(code) / 65_535.0),
             Self::Float(texels) => texels[index],
@@ -65,6 +65,12 @@ impl Texels {
 /// Linear values of the 256 codes of sRGB.
 static SRGB: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|code| linear_from_srgb(code as f64 / 255.0) as f32));
+
+/// The same of the 65 536 codes of 16 bits.
+static SRGB_16: LazyLock<Vec<f32>> = LazyLock::new(|| {
+    let linear = |code: u16| linear_from_srgb(f64::from(code) / 65_535.0) as f32;
+    (0..=u16::MAX).map(linear).collect()
+});
 
 /// The inverse of the sRGB transfer function, 0 to 1.
 ///

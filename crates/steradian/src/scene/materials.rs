@@ -5,7 +5,9 @@ use std::sync::Arc;
 use super::curves::Curves;
 use super::description::{self, LaneValues, MaterialDescription, MaterialModel, Varying};
 use super::{Fault, Part, Problem};
-use crate::material::{Bitmap, Hue, Material, MaterialId, Model, Opacity, Pattern, Texture, Tint};
+use crate::material::{
+    Bitmap, Hue, Material, MaterialId, Model, Opacity, Pattern, Texels, Texture, Tint,
+};
 use crate::spectrum::Lanes;
 
 /// Prepared materials and the sides that each name stands for.
@@ -192,6 +194,10 @@ fn check_bitmap(bitmap: &Bitmap, lanes: &Lanes) -> Result<(), String> {
     lanes.check_colours().map_err(|error| error.to_string())?;
     let grey_only = !(lanes.is_rgb() || lanes.is_spectral());
     let texels = bitmap.texels();
+    // Codes of 8 and 16 bits lie between 0 and 1 as they are.
+    if !grey_only && !matches!(texels, Texels::Float(_)) {
+        return Ok(());
+    }
     for index in 0..texels.len() {
         let [r, g, b, alpha] = texels.at(index);
         if grey_only && (r != g || g != b) {

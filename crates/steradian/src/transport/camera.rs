@@ -7,6 +7,7 @@
 mod optics;
 
 use self::optics::Optics;
+use super::channels;
 use super::columns::{BATCH, Flight, Workspace};
 use super::measure::WAVELENGTH_BLOCK;
 use super::path::Tracer;
@@ -114,11 +115,8 @@ impl CameraSampler<'_> {
     fn channels(&self, paths: &Workspace, slot: usize) -> [f32; 4] {
         let (tables, waves) = (self.tables(), &paths.wavelengths[slot]);
         self.channels.map(|channel| {
-            let response = &tables.responses[channel];
-            let lane = |lane: usize| {
-                let read = response.at(waves.places[lane]) * waves.weights[lane];
-                paths.gathered[lane * BATCH + slot] * read
-            };
+            let counts = channels::counts(&tables.responses[channel], waves);
+            let lane = |lane: usize| paths.gathered[lane * BATCH + slot] * counts[lane];
             (lane(0) + lane(1)) + (lane(2) + lane(3))
         })
     }

@@ -7,7 +7,7 @@ use super::columns::{BATCH, Workspace};
 use super::tables::Tables;
 use crate::scene::Scene;
 use crate::sensor::{Kind, Sensor};
-use crate::spectrum::{Curve, WavelengthDensity};
+use crate::spectrum::{BakedCurve, Curve, MAX_LANES, WavelengthDensity, Wavelengths};
 
 /// Channels of the groups, from what the path of a slot gathered.
 pub(super) fn read(tables: &Tables<'_>, paths: &Workspace, slot: usize, columns: &mut [f64]) {
@@ -24,13 +24,16 @@ pub(super) fn read(tables: &Tables<'_>, paths: &Workspace, slot: usize, columns:
     let waves = &paths.wavelengths[slot];
     for (group, channels) in columns.chunks_mut(tables.responses.len()).enumerate() {
         for (channel, response) in channels.iter_mut().zip(&tables.responses) {
-            let lane = |lane: usize| {
-                let read = response.at(waves.places[lane]) * waves.weights[lane];
-                gathered(group, lane) * f64::from(read)
-            };
+            let counts = counts(response, waves);
+            let lane = |lane: usize| gathered(group, lane) * f64::from(counts[lane]);
             *channel = (lane(0) + lane(1)) + (lane(2) + lane(3));
         }
     }
+}
+
+/// R(λ_k) / 4p(λ_k): what each lane of a path counts in a channel.
+pub(super) fn counts(response: &BakedCurve, waves: &Wavelengths) -> [f32; MAX_LANES] {
+    std::array::from_fn(|lane| response.at(waves.places[lane]) * waves.weights[lane])
 }
 
 /// From what a sensor's wavelengths are drawn; `None` unless the run is spectral.
