@@ -65,6 +65,14 @@ pub struct Site {
     pub color: [f32; 4],
 }
 
+impl Site {
+    /// Of what has no surface, and so no texture.
+    pub const NOWHERE: Self = Self {
+        coordinates: [0.0; 2],
+        color: [1.0; 4],
+    };
+}
+
 impl Texture {
     fn place(&self, site: &Site) -> [f64; 2] {
         let [u, v] = site.coordinates.map(f64::from);

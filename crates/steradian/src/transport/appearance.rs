@@ -1,7 +1,7 @@
 //! What sides look like to a path: reflectance, emission and opacity at a point, at the path's wavelengths.
 
 use super::interaction::Hit;
-use super::tables::{Emitter, EmitterShape, Lanes4, NO_TINT, Side, Tables};
+use super::tables::{Emitter, EmitterShape, Lanes4, NO_TINT, Side, Tables, Tinted};
 use super::towards::triangle_of;
 use crate::geometry::{Point, Vector};
 use crate::material::Site;
@@ -9,65 +9,22 @@ use crate::shape::Form;
 use crate::spectrum::Wavelengths;
 
 impl Tables<'_> {
-    /// Lanes of a tint at a point, or `constant` where there is no tint.
+    /// Lanes at a point, which is asked for only where they vary over the surface.
     #[inline(always)]
-    fn lanes_at(
+    pub fn lanes_at(
         &self,
-        tint: u32,
-        constant: &Lanes4,
+        tinted: &Tinted,
         wavelengths: &Wavelengths,
         site: impl FnOnce() -> Site,
     ) -> Lanes4 {
-        if tint == NO_TINT {
-            return *constant;
+        if tinted.tint == NO_TINT {
+            return tinted.lanes;
         }
-        let tint = &self.tints[tint as usize];
+        let tint = &self.tints[tinted.tint as usize];
         if tint.textures.is_empty() {
             return self.colors.hue(&tint.hue, wavelengths);
         }
         self.colors.tint(tint, &site(), wavelengths)
-    }
-
-    /// Reflectance of a side.
-    #[inline(always)]
-    pub fn reflectance(
-        &self,
-        side: &Side,
-        wavelengths: &Wavelengths,
-        site: impl FnOnce() -> Site,
-    ) -> Lanes4 {
-        self.lanes_at(side.reflectance_tint, &side.reflectance, wavelengths, site)
-    }
-
-    /// Radiance that a side emits.
-    #[inline(always)]
-    pub fn radiance(
-        &self,
-        side: &Side,
-        wavelengths: &Wavelengths,
-        site: impl FnOnce() -> Site,
-    ) -> Lanes4 {
-        self.lanes_at(side.radiance_tint, &side.radiance, wavelengths, site)
-    }
-
-    /// Radiance of an environment.
-    pub fn environment(&self, radiance: &Lanes4, tint: u32, wavelengths: &Wavelengths) -> Lanes4 {
-        let nowhere = || Site {
-            coordinates: [0.0; 2],
-            color: [1.0; 4],
-        };
-        self.lanes_at(tint, radiance, wavelengths, nowhere)
-    }
-
-    /// Intensity, irradiance or radiance of an emitter, by kind.
-    #[inline(always)]
-    pub fn power(
-        &self,
-        emitter: &Emitter,
-        wavelengths: &Wavelengths,
-        site: impl FnOnce() -> Site,
-    ) -> Lanes4 {
-        self.lanes_at(emitter.tint, &emitter.power, wavelengths, site)
     }
 
     /// The part of the light that a side stops; `None` for all of it.
@@ -96,10 +53,7 @@ impl Tables<'_> {
     pub fn site_of_sample(&self, emitter: &Emitter, u: [f32; 2], end: [f32; 3]) -> Site {
         let surfaces = self.scene.surfaces();
         let Some(shape) = emitter.surface else {
-            return Site {
-                coordinates: [0.0; 2],
-                color: [1.0; 4],
-            };
+            return Site::NOWHERE;
         };
         let form = &surfaces.shape(shape).form;
         let point = surfaces.origin() + Vector::from(end.map(f64::from));

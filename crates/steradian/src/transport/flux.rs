@@ -117,7 +117,7 @@ impl FluxMeter<'_> {
         let reflectance = match (self.of, side.model) {
             (FluxOf::Incident, _) => return [1.0; 4],
             (_, Model::Black) => [0.0; 4],
-            _ => tables.reflectance(side, wavelengths, || drawn.site()),
+            _ => tables.lanes_at(&side.reflectance, wavelengths, || drawn.site()),
         };
         let opacity = tables.opacity(side, || drawn.site()).unwrap_or(1.0);
         reflectance.map(|lane| match self.of {
@@ -141,8 +141,9 @@ impl FluxMeter<'_> {
             FluxOf::Net => -1.0,
             FluxOf::Incident | FluxOf::Absorbed => return None,
         };
-        let varies = side.emits && tables.has_textures(side.radiance_tint);
-        let radiance = varies.then(|| tables.radiance(side, wavelengths, || drawn.site()))?;
+        let varies = side.emits && tables.has_textures(&side.radiance);
+        let radiance =
+            varies.then(|| tables.lanes_at(&side.radiance, wavelengths, || drawn.site()))?;
         Some(radiance.map(|lane| sign * lane))
     }
 }

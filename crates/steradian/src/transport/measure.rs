@@ -216,7 +216,7 @@ impl<'a> Meters<'a> {
         let tables = self.tracer.tables;
         let side = &tables.sides[side as usize];
         let wavelengths = paths.wavelengths[identity.0 as usize];
-        let reflectance = tables.reflectance(side, &wavelengths, || site);
+        let reflectance = tables.lanes_at(&side.reflectance, &wavelengths, || site);
         match side.model {
             Model::Black => {}
             Model::Lambertian => paths.vertices.push(

@@ -246,7 +246,7 @@ impl<'t, 'a> Context<'t, 'a> {
         }
         let hit = hit(self.tables, rays, hits, index);
         let side = &self.tables.sides[hit.side as usize];
-        let emission_varies = side.emits && self.tables.has_textures(side.radiance_tint);
+        let emission_varies = side.emits && self.tables.has_textures(&side.radiance);
         if side.opacity != OPAQUE || emission_varies {
             return (self.max_depth >= 1).then_some(Meter::Ray {
                 origin: hit.origin,

@@ -80,8 +80,11 @@ impl NextEvent<'_> {
             },
             false,
             false,
-        ) = (&emitter.shape, self.spherical, emitter.textured)
-        {
+        ) = (
+            &emitter.shape,
+            self.spherical,
+            tables.has_textures(&emitter.power),
+        ) {
             shadows.emitter.fill(number as u32);
             let (origin, edges, normal) = (*origin, *edges, *normal);
             let (area, two_sided, probability) = (
@@ -167,7 +170,9 @@ impl NextEvent<'_> {
             let emitter = &tables.emitters[shadows.emitter[i] as usize];
             let (response, slot) = (&vertices.response, vertices.identity.slot[i]);
             let wavelengths = &workspace.wavelengths[slot as usize];
-            let power = tables.power(emitter, wavelengths, || shadows.site(tables, emitter, i));
+            let power = tables.lanes_at(&emitter.power, wavelengths, || {
+                shadows.site(tables, emitter, i)
+            });
             self.tracer
                 .add(&mut workspace.gathered, emitter.group, slot, |lane| {
                     response[lane][i] * power[lane] * gain

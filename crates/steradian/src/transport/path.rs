@@ -24,6 +24,7 @@ use super::next_event::NextEvent;
 use super::profile::Stage;
 use super::scatter;
 use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, OPAQUE, Side, Tables};
+use crate::material::Site;
 use crate::sampling::hash;
 use crate::spectrum::Wavelengths;
 
@@ -120,7 +121,7 @@ impl Tracer<'_> {
             let side = &tables.sides[hit.side as usize];
             if side.emits {
                 let weight = self.emission_weight(side, &hit, workspace.flights.pdf[i], candidates);
-                let radiance = tables.radiance(side, wavelengths, || tables.site(&hit));
+                let radiance = tables.lanes_at(&side.radiance, wavelengths, || tables.site(&hit));
                 self.add(&mut workspace.gathered, side.group, slot, |lane| {
                     workspace.flights.throughput[lane][i] * radiance[lane] * weight
                 });
@@ -136,7 +137,7 @@ impl Tracer<'_> {
             if side.model == Model::Black {
                 continue;
             }
-            let reflectance = tables.reflectance(side, wavelengths, || tables.site(&hit));
+            let reflectance = tables.lanes_at(&side.reflectance, wavelengths, || tables.site(&hit));
             match side.model {
                 Model::Black => {}
                 Model::Lambertian => push(
@@ -190,8 +191,10 @@ impl Tracer<'_> {
     }
 
     fn escape(&self, flights: &Flights, i: usize, wavelengths: &Wavelengths, gathered: &mut [f32]) {
-        for (group, radiance, tint) in &self.tables.environment {
-            let radiance = self.tables.environment(radiance, *tint, wavelengths);
+        for (group, radiance) in &self.tables.environment {
+            let radiance = self
+                .tables
+                .lanes_at(radiance, wavelengths, || Site::NOWHERE);
             self.add(gathered, *group, flights.identity.slot[i], |lane| {
                 flights.throughput[lane][i] * radiance[lane]
             });

@@ -144,7 +144,7 @@ fn batched_samples_are_those_of_the_lights() {
                 continue;
             };
             let expected = exact.normal_irradiance[0].to_watts_per_square_metre();
-            let found = f64::from(batched.per_power * emitter.power[0]);
+            let found = f64::from(batched.per_power * emitter.power.lanes[0]);
             assert!(
                 (found - expected).abs() <= 2e-4 * expected.abs(),
                 "light {number}: {found} {expected}"

@@ -1,7 +1,6 @@
 //! Emitters: the lights that next-event estimation samples, and how likely each is chosen.
 
-use super::sides::Tints;
-use super::{Emitter, EmitterShape, NO_EMITTER};
+use super::{Emitter, EmitterShape, NO_EMITTER, Tinted};
 use crate::geometry::{Frame, Point};
 use crate::light::{Kind, Light};
 use crate::material::Tint;
@@ -9,14 +8,14 @@ use crate::scene::Scene;
 use crate::shape::{Form, ShapeId, Sphere, SpherePort};
 
 /// Emitters, those with extent first, and the number of that of each light.
-pub(super) fn emitters(scene: &Scene, tints: &mut Tints) -> (Vec<Emitter>, Vec<u32>) {
+pub(super) fn emitters(scene: &Scene, powers: &[Tinted]) -> (Vec<Emitter>, Vec<u32>) {
     let lights = scene.lights();
     let (delta, extent): (Vec<_>, Vec<_>) =
         (0..lights.len()).partition(|&index| lights[index].is_delta());
     let mut emitters = Vec::new();
     let mut emitter_of_light = vec![NO_EMITTER; lights.len()];
     for index in extent.into_iter().chain(delta) {
-        if let Some(emitter) = emitter(scene, &lights[index], tints) {
+        if let Some(emitter) = emitter(scene, &lights[index], powers[index]) {
             emitter_of_light[index] = emitters.len() as u32;
             emitters.push(emitter);
         }
@@ -24,19 +23,15 @@ pub(super) fn emitters(scene: &Scene, tints: &mut Tints) -> (Vec<Emitter>, Vec<u
     (emitters, emitter_of_light)
 }
 
-fn emitter(scene: &Scene, light: &Light, tints: &mut Tints) -> Option<Emitter> {
+fn emitter(scene: &Scene, light: &Light, power: Tinted) -> Option<Emitter> {
     let shape = emitter_shape(scene, light)?;
     let area = match &light.kind {
         Kind::Area(area) => Some(area),
         _ => None,
     };
-    let textures = area.map_or(&[][..], |area| &area.textures);
-    let (power, tint) = tints.of_light(light, textures);
     Some(Emitter {
         shape,
         power,
-        tint,
-        textured: !textures.is_empty(),
         surface: area.map(|area| area.shape),
         group: light.group,
         two_sided: area.is_some_and(|area| area.two_sided),
@@ -131,7 +126,7 @@ pub(super) fn choose_by_power(scene: &Scene, emitters: &mut [Emitter], tints: &[
     let power = |emitter: &Emitter| -> f64 {
         let lanes: f64 = weights
             .iter()
-            .zip(&emitter.power)
+            .zip(&emitter.power.lanes)
             .map(|(w, x)| w * f64::from(*x))
             .sum();
         lanes * emitter.shape.power_factor(extent) * emitter.spectral_power(scene, tints)
@@ -161,7 +156,7 @@ impl Emitter {
             return 1.0;
         };
         let [low, high] = grid.range();
-        let tint = tints.get(self.tint as usize);
+        let tint = tints.get(self.power.tint as usize);
         tint.and_then(|tint| tint.hue.curve)
             .map_or(high - low, |id| scene.curve(id).integral([low, high]))
     }

@@ -6,9 +6,9 @@ mod sides;
 use std::sync::Arc;
 
 use emitters::{choose_by_power, emitters};
-use sides::{Tints, side};
+use sides::{Tints, emitting};
 
-use crate::light::Beam;
+use crate::light::{Beam, Kind};
 use crate::material::{ColorLanes, Opacity, Tint};
 use crate::scene::Scene;
 use crate::shape::ShapeId;
@@ -28,15 +28,27 @@ pub(super) enum Model {
     Mirror,
 }
 
+/// Lanes that may vary over a surface or with the wavelength.
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Tinted {
+    /// Where nothing varies.
+    pub lanes: Lanes4,
+    /// Number among the tints, or [`NO_TINT`].
+    pub tint: u32,
+}
+
+impl Tinted {
+    const BLACK: Self = Self {
+        lanes: [0.0; 4],
+        tint: NO_TINT,
+    };
+}
+
 /// One side of a part: what it reflects and emits.
 #[derive(Copy, Clone, Debug)]
 pub(super) struct Side {
-    /// Where it is the same everywhere and at every wavelength.
-    pub reflectance: Lanes4,
-    /// Number among the tints, or [`NO_TINT`].
-    pub reflectance_tint: u32,
-    pub radiance: Lanes4,
-    pub radiance_tint: u32,
+    pub reflectance: Tinted,
+    pub radiance: Tinted,
     /// Number among the opacities; none of that number if it is opaque.
     pub opacity: u32,
     pub model: Model,
@@ -49,8 +61,8 @@ pub(super) struct Side {
 impl Side {
     /// False only if it reflects nothing of a channel.
     pub fn may_reflect(&self, channel: usize) -> bool {
-        self.reflectance_tint != NO_TINT
-            || self.reflectance.get(channel).is_none_or(|lane| *lane > 0.0)
+        let lane = self.reflectance.lanes.get(channel);
+        self.reflectance.tint != NO_TINT || lane.is_none_or(|lane| *lane > 0.0)
     }
 }
 
@@ -68,10 +80,7 @@ pub(super) const NO_EMITTER: u32 = u32::MAX;
 pub(super) struct Emitter {
     pub shape: EmitterShape,
     /// Radiance, intensity, or irradiance facing the light, by kind.
-    pub power: Lanes4,
-    pub tint: u32,
-    /// The emission has textures.
-    pub textured: bool,
+    pub power: Tinted,
     /// The shape that emits.
     pub surface: Option<ShapeId>,
     pub group: u32,
@@ -143,8 +152,8 @@ pub(super) struct Tables<'a> {
     pub extended: usize,
     /// Cumulative probability of the emitters.
     pub cumulative: Vec<f32>,
-    /// Radiance of everywhere, by group, with its tint.
-    pub environment: Vec<(u32, Lanes4, u32)>,
+    /// Radiance of everywhere, by group.
+    pub environment: Vec<(u32, Tinted)>,
     /// What varies over surfaces or with the wavelength.
     pub tints: Vec<Tint>,
     /// Of sides that are not opaque.
@@ -158,22 +167,31 @@ pub(super) struct Tables<'a> {
 impl<'a> Tables<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         let mut tints = Tints::default();
-        let (mut emitters, emitter_of_light) = emitters(scene, &mut tints);
+        let lights = scene.lights().iter();
+        let powers: Vec<_> = lights.map(|light| tints.of_light(light)).collect();
+        let materials = scene.materials().iter();
+        let plain: Vec<_> = materials
+            .map(|(_, material)| tints.of_material(material))
+            .collect();
+        let (mut emitters, emitter_of_light) = emitters(scene, &powers);
         let extended = emitters.iter().filter(|emitter| !emitter.shape.is_delta());
         let extended = extended.count();
         let cumulative = choose_by_power(scene, &mut emitters, &tints.tints);
         let sides = scene.parts().iter().flat_map(|part| {
-            let light = part.light.map(|id| (id, emitter_of_light[id.0 as usize]));
-            [
-                side(scene, part.front, light, true, &mut tints),
-                side(scene, part.back, light, false, &mut tints),
-            ]
+            [(part.front, true), (part.back, false)].map(|(material, front)| {
+                let side = plain[material.0 as usize];
+                part.light.map_or(side, |id| {
+                    let number = id.0 as usize;
+                    let light = (id, powers[number], emitter_of_light[number]);
+                    emitting(side, scene, light, front)
+                })
+            })
         });
         let sides: Vec<_> = sides.collect();
-        let environment = scene.environments().map(|light| {
-            let (lanes, tint) = tints.of_light(light, &[]);
-            (light.group, lanes, tint)
-        });
+        let everywhere = scene.lights().iter().zip(&powers);
+        let everywhere =
+            everywhere.filter(|(light, _)| matches!(light.kind, Kind::Environment { .. }));
+        let environment = everywhere.map(|(light, power)| (light.group, *power));
         let environment = environment.collect();
         let grid = scene.lanes().grid();
         let bake = |curve: &Arc<Curve>| grid.map(|grid| grid.bake(curve));
@@ -193,8 +211,8 @@ impl<'a> Tables<'a> {
     }
 
     /// Whether a tint varies over the surface.
-    pub fn has_textures(&self, tint: u32) -> bool {
-        let tint = self.tints.get(tint as usize);
+    pub fn has_textures(&self, tinted: &Tinted) -> bool {
+        let tint = self.tints.get(tinted.tint as usize);
         tint.is_some_and(|tint| !tint.textures.is_empty())
     }
 

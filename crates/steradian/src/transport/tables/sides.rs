@@ -1,8 +1,10 @@
-//! Sides of parts: what they reflect, emit and let pass, and the tints of what varies.
+//! Sides of parts: what they reflect, emit and let pass.
+//!
+//! Materials and lights get their tints once, by number, however many sides have them.
 
-use super::{Lanes4, Model, NO_EMITTER, NO_TINT, OPAQUE, Side};
+use super::{Model, NO_EMITTER, NO_TINT, OPAQUE, Side, Tinted};
 use crate::light::{Kind, Light, LightId};
-use crate::material::{self, Hue, MaterialId, Opacity, Texture, Tint};
+use crate::material::{self, Hue, Material, Opacity, Tint};
 use crate::scene::Scene;
 
 /// Collects what varies.
@@ -13,78 +15,81 @@ pub(super) struct Tints {
 }
 
 impl Tints {
-    /// Number of a tint, and its lanes where it has none.
-    fn add(&mut self, tint: Tint) -> (Lanes4, u32) {
+    fn add(&mut self, tint: Tint) -> Tinted {
+        let lanes = tint.hue.lanes;
         if tint.is_constant() {
-            return (tint.hue.lanes, NO_TINT);
+            return Tinted {
+                lanes,
+                tint: NO_TINT,
+            };
         }
-        let known = self.tints.iter().position(|known| *known == tint);
-        let number = known.unwrap_or_else(|| {
-            self.tints.push(tint.clone());
-            self.tints.len() - 1
-        });
-        (tint.hue.lanes, number as u32)
+        self.tints.push(tint);
+        Tinted {
+            lanes,
+            tint: self.tints.len() as u32 - 1,
+        }
     }
 
-    pub fn of_light(&mut self, light: &Light, textures: &[Texture]) -> (Lanes4, u32) {
+    /// Intensity, irradiance or radiance of a light, by kind.
+    pub fn of_light(&mut self, light: &Light) -> Tinted {
+        let textures = match &light.kind {
+            Kind::Area(area) => area.textures.clone(),
+            _ => vec![],
+        };
         self.add(Tint {
             hue: Hue {
                 lanes: light.power().map(|lane| lane as f32),
                 curve: light.spectrum,
             },
-            textures: textures.to_vec(),
+            textures,
         })
     }
 
-    fn opacity(&mut self, opacity: Option<&Opacity>) -> u32 {
-        let Some(opacity) = opacity else {
-            return OPAQUE;
+    /// A side of a material that does not emit.
+    pub fn of_material(&mut self, material: &Material) -> Side {
+        let is_black = |tint: &Tint| tint.hue.lanes == [0.0; 4];
+        let model = match material.model {
+            _ if material.reflectance().is_none_or(is_black) => Model::Black,
+            material::Model::Black => Model::Black,
+            material::Model::Lambertian { .. } => Model::Lambertian,
+            material::Model::Mirror { .. } => Model::Mirror,
         };
-        let known = self.opacities.iter().position(|known| known == opacity);
-        known.unwrap_or_else(|| {
+        let reflectance = material.reflectance().cloned();
+        Side {
+            reflectance: reflectance.map_or(Tinted::BLACK, |tint| self.add(tint)),
+            radiance: Tinted::BLACK,
+            opacity: self.opacity(material.opacity.as_ref()),
+            model,
+            emitter: NO_EMITTER,
+            group: 0,
+            emits: false,
+        }
+    }
+
+    fn opacity(&mut self, opacity: Option<&Opacity>) -> u32 {
+        opacity.map_or(OPAQUE, |opacity| {
             self.opacities.push(opacity.clone());
-            self.opacities.len() - 1
-        }) as u32
+            self.opacities.len() as u32 - 1
+        })
     }
 }
 
-pub(super) fn side(
+/// The same side where a light emits from it; `front` tells which side it is.
+pub(super) fn emitting(
+    side: Side,
     scene: &Scene,
-    material: MaterialId,
-    light: Option<(LightId, u32)>,
+    (id, radiance, emitter): (LightId, Tinted, u32),
     front: bool,
-    tints: &mut Tints,
 ) -> Side {
-    let material = scene.material(material);
-    let is_black = |tint: &Tint| tint.hue.lanes == [0.0; 4];
-    let model = match material.model {
-        _ if material.reflectance().is_none_or(is_black) => Model::Black,
-        material::Model::Black => Model::Black,
-        material::Model::Lambertian { .. } => Model::Lambertian,
-        material::Model::Mirror { .. } => Model::Mirror,
-    };
-    let black = ([0.0; 4], NO_TINT);
-    let tint = material.reflectance().cloned();
-    let (reflectance, reflectance_tint) = tint.map_or(black, |tint| tints.add(tint));
-    let mut side = Side {
-        reflectance,
-        reflectance_tint,
-        radiance: [0.0; 4],
-        radiance_tint: NO_TINT,
-        opacity: tints.opacity(material.opacity.as_ref()),
-        model,
-        emitter: NO_EMITTER,
-        group: 0,
-        emits: false,
-    };
-    if let Some((id, emitter)) = light {
-        let light = &scene.lights()[id.0 as usize];
-        if let Kind::Area(area) = &light.kind
-            && (front || area.two_sided)
-        {
-            (side.radiance, side.radiance_tint) = tints.of_light(light, &area.textures);
-            (side.emitter, side.group, side.emits) = (emitter, light.group, true);
-        }
+    let light = &scene.lights()[id.0 as usize];
+    match &light.kind {
+        Kind::Area(area) if front || area.two_sided => Side {
+            radiance,
+            emitter,
+            group: light.group,
+            emits: true,
+            ..side
+        },
+        _ => side,
     }
-    side
 }
