@@ -1,10 +1,10 @@
 //! Geometry in `f64`: points and directions, frames, spherical coordinates, foreshortening, and the closed forms
-//! for solid angles and form factors.
+//! for solid angles and configuration factors.
 //!
-//! Right-handed coordinates in metres with Z up. Nothing here knows of light: [`solid_angle`] and [`form_factor`]
-//! give numbers that other modules multiply with radiance.
+//! Right-handed coordinates in metres with Z up. Nothing here knows of light: [`solid_angle`] and
+//! [`configuration_factor`] give numbers that other modules multiply with radiance.
 
-pub mod form_factor;
+pub mod configuration_factor;
 pub mod solid_angle;
 
 mod bounds;

@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_3, PI, SQRT_2, TAU};
 
 use super::*;
-use crate::geometry::{Frame, Vector, form_factor, solid_angle};
+use crate::geometry::{Frame, Vector, configuration_factor, solid_angle};
 use crate::quantity::{Area, Intensity, Length};
 use crate::sampling::testing::{assert_mean, independent};
 use crate::shape::{Disc, Parallelogram, ShapeId, Sphere, SpherePort, TriangleMesh};
@@ -232,7 +232,7 @@ fn a_rectangle_gives_the_closed_form_on_its_front_only() {
     let outline = rectangle().corners();
     let form = Form::Parallelogram(rectangle());
     let normal = direction(0.3, 0.1, 1.0);
-    let exact = PI * RADIANCE * form_factor::of_polygon(Point::ORIGIN, normal, &outline);
+    let exact = PI * RADIANCE * configuration_factor::of_polygon(Point::ORIGIN, normal, &outline);
     assert_mean(
         &irradiances(&form, false, Point::ORIGIN, normal),
         exact,
@@ -240,7 +240,7 @@ fn a_rectangle_gives_the_closed_form_on_its_front_only() {
     );
     assert_mean(&irradiances(&form, true, Point::ORIGIN, normal), exact, 0.0);
     let (above, down) = (Point::new(0.7, 0.0, 3.0), -Direction::Z);
-    let exact = PI * RADIANCE * form_factor::of_polygon(above, down, &outline);
+    let exact = PI * RADIANCE * configuration_factor::of_polygon(above, down, &outline);
     assert_mean(&irradiances(&form, true, above, down), exact, 0.0);
     assert_eq!(irradiances(&form, false, above, down), vec![0.0; 16_384]);
 }
@@ -249,7 +249,8 @@ fn a_rectangle_gives_the_closed_form_on_its_front_only() {
 fn a_mesh_gives_what_its_outline_gives() {
     let outline = rectangle().corners();
     let mesh = TriangleMesh::new(outline.to_vec(), vec![[0, 1, 2], [0, 2, 3]]);
-    let exact = PI * RADIANCE * form_factor::of_polygon(Point::ORIGIN, Direction::Z, &outline);
+    let exact =
+        PI * RADIANCE * configuration_factor::of_polygon(Point::ORIGIN, Direction::Z, &outline);
     assert_mean(
         &irradiances(&Form::Mesh(mesh), false, Point::ORIGIN, Direction::Z),
         exact,
@@ -291,8 +292,12 @@ fn a_sphere_gives_the_closed_form_also_where_the_horizon_cuts_it() {
         Direction::Y,
         direction(1.0, 0.2, 0.1),
     ] {
-        let factor =
-            form_factor::of_sphere(Point::ORIGIN, normal, center, Length::from_metres(1.5));
+        let factor = configuration_factor::of_sphere(
+            Point::ORIGIN,
+            normal,
+            center,
+            Length::from_metres(1.5),
+        );
         let found = irradiances(&sphere(false, vec![]), false, Point::ORIGIN, normal);
         assert_mean(&found, PI * RADIANCE * factor, 1e-12);
     }

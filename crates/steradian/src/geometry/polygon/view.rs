@@ -1,7 +1,7 @@
 //! How large a polygon with holes looks: its outline less its holes.
 
 use super::Polygon;
-use crate::geometry::{Direction, Point, form_factor, solid_angle};
+use crate::geometry::{Direction, Point, configuration_factor, solid_angle};
 use crate::quantity::SolidAngle;
 
 impl Polygon {
@@ -30,9 +30,9 @@ impl Polygon {
     pub fn configuration_factor_from(&self, position: Point, normal: Direction) -> f64 {
         let holes: f64 = self
             .holes()
-            .map(|hole| form_factor::of_polygon(position, normal, hole))
+            .map(|hole| configuration_factor::of_polygon(position, normal, hole))
             .sum();
-        form_factor::of_polygon(position, normal, self.outline()) - holes
+        configuration_factor::of_polygon(position, normal, self.outline()) - holes
     }
 }
 
@@ -56,7 +56,7 @@ mod tests {
                 polygon.triangle_corners().map(|corners| solid_angle::of_triangle(eye, corners)).sum();
             prop_assert!(close(polygon.solid_angle_from(eye).to_steradians(), solid_angle.to_steradians(), 1e-12));
             let factor: f64 =
-                polygon.triangle_corners().map(|corners| form_factor::of_polygon(eye, normal, &corners)).sum();
+                polygon.triangle_corners().map(|corners| configuration_factor::of_polygon(eye, normal, &corners)).sum();
             prop_assert!(close(polygon.configuration_factor_from(eye, normal), factor, 1e-12));
         }
     }

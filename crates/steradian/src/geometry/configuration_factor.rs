@@ -24,10 +24,10 @@
 //! Precision: absolute errors of some 2⁻⁵² for each edge, also upwards of 1.
 //!
 //! ```
-//! use steradian::geometry::{form_factor, Direction, Point};
+//! use steradian::geometry::{configuration_factor, Direction, Point};
 //! // A square of 2 m × 2 m, one metre above the element: F = (4/π) (1/√2) atan(1/√2).
 //! let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Point::new(x, y, 1.0));
-//! let found = form_factor::of_polygon(Point::ORIGIN, Direction::Z, &square);
+//! let found = configuration_factor::of_polygon(Point::ORIGIN, Direction::Z, &square);
 //! assert!((found - 0.5541264239796).abs() < 1e-12);
 //! ```
 
@@ -59,10 +59,10 @@ pub fn of_polygon(position: Point, normal: Direction, outline: &[Point]) -> f64 
 /// the sphere it is 1, and 0 for a sphere of no or negative radius, or of NaN.
 ///
 /// ```
-/// use steradian::geometry::{form_factor, Direction, Point};
+/// use steradian::geometry::{configuration_factor, Direction, Point};
 /// use steradian::quantity::Length;
 /// let overhead = Point::new(0.0, 0.0, 4.0);
-/// let found = form_factor::of_sphere(Point::ORIGIN, Direction::Z, overhead, Length::from_metres(1.0));
+/// let found = configuration_factor::of_sphere(Point::ORIGIN, Direction::Z, overhead, Length::from_metres(1.0));
 /// assert_eq!(found, 1.0 / 16.0); // (R/d)²
 /// ```
 pub fn of_sphere(position: Point, normal: Direction, center: Point, radius: Length) -> f64 {
