@@ -8,7 +8,7 @@ use steradian_kernel::{
     Accelerator, BuildError, Cap, Geometry, HitBatch, InstructionSet, Quadric, RayBatch,
 };
 
-use crate::geometry::{Bounds, Direction, Point, Vector};
+use crate::geometry::{Bounds, Direction, Hull, Point, Vector};
 
 use super::{Disc, Form, Sphere, SpherePort};
 
@@ -155,6 +155,14 @@ impl Surfaces {
         let down = -normal;
         let plane = [down.x(), down.y(), down.z(), down.dot(p) - clearance];
         self.accelerator.region_is_clear(&[plane], &|_| false)
+    }
+
+    /// True only if no surface, except the primitives that `ignore` accepts, reaches into the region: the condition for
+    /// closed forms, which know no obstacles. With the hull shrunk by [`clearance`](Self::clearance) surfaces that merely touch it
+    /// do not count.
+    pub fn is_clear(&self, region: &Hull, ignore: &dyn Fn(u32) -> bool) -> bool {
+        let half_spaces = region.half_spaces_from(self.origin);
+        self.accelerator.region_is_clear(&half_spaces, ignore)
     }
 
     /// Number of the first primitive of a shape.

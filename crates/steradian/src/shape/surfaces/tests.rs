@@ -1,6 +1,7 @@
 use steradian_kernel::MISS;
 
 use super::*;
+use crate::quantity::Length;
 use crate::shape::{Parallelogram, TriangleMesh};
 
 /// The middle of a scene far from the origin, exact in f64.
@@ -145,4 +146,23 @@ fn clearance_grows_with_the_distance_from_the_shapes() {
     let far = near + Vector::new(1e4, 0.0, 0.0);
     // Single precision resolves 1e4 m to 2⁻¹⁰ m.
     assert!(surfaces.clearance_at(far) > 10.0 * 0.5 * f64::from(f32::EPSILON) * 1e4);
+}
+
+/// The shaft between two unit squares, at z = −0.5 under the rectangle and at z = `top`.
+#[test]
+fn a_shaft_is_clear_up_to_what_it_touches() {
+    let surfaces = surfaces(FAR);
+    let square = |z: f64| {
+        [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Point::new(x, y, z) + FAR)
+    };
+    let is_clear = |top: f64| {
+        let shaft = Hull::around(&[square(-0.5), square(top)].concat());
+        let margin = Length::from_metres(surfaces.clearance());
+        surfaces.is_clear(&shaft.shrunk(margin), &|_| false)
+    };
+    assert!(is_clear(1.0), "the rectangle lies in the end of the shaft");
+    assert!(!is_clear(1.1));
+    let shaft = Hull::around(&[square(-0.5), square(1.1)].concat());
+    let of_rectangle = |primitive| surfaces.shape_of(primitive) == ShapeId(1);
+    assert!(surfaces.is_clear(&shaft, &of_rectangle));
 }
