@@ -7,6 +7,7 @@ pub mod quantity;
 pub mod geometry;
 pub mod sampling;
 pub mod estimation;
+pub mod time;
 pub mod spectrum;
 pub mod shape;
 pub mod brdf;

@@ -8,10 +8,10 @@
 use std::ops::{Div, Mul};
 
 use super::{
-    Area, Energy, Exitance, Flux, Illuminance, Intensity, Irradiance, Length, Luminance,
-    LuminousEfficacy, LuminousEnergy, LuminousExitance, LuminousExposure, LuminousFlux,
-    LuminousIntensity, ProjectedSolidAngle, Radiance, RadiantExposure, ScalarIrradiance,
-    SolidAngle, Time, Value,
+    Angle, AngularFrequency, Area, Energy, Exitance, Flux, Illuminance, Intensity, Irradiance,
+    Length, Luminance, LuminousEfficacy, LuminousEnergy, LuminousExitance, LuminousExposure,
+    LuminousFlux, LuminousIntensity, ProjectedSolidAngle, Radiance, RadiantExposure,
+    ScalarIrradiance, SolidAngle, Time, Value,
 };
 
 macro_rules! laws {
@@ -85,6 +85,8 @@ laws! {
     LuminousFlux * Time = LuminousEnergy;
     Illuminance * Time = LuminousExposure;
     LuminousExposure * Area = LuminousEnergy;
+
+    AngularFrequency * Time = Angle;
 
     Energy * LuminousEfficacy = LuminousEnergy;
     Flux * LuminousEfficacy = LuminousFlux;

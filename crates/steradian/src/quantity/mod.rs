@@ -18,7 +18,7 @@
 //! | [`Radiance`] | L · W/(m² sr) | [`Luminance`] | Lᵥ · cd/m² |
 //!
 //! and of space and time [`Length`] (m), [`Area`] (m²), [`Angle`] (rad), [`SolidAngle`] and
-//! [`ProjectedSolidAngle`] (sr), [`Time`] (s), [`Temperature`] (K). [`LuminousEfficacy`] (lm/W) leads from the left half to the right.
+//! [`ProjectedSolidAngle`] (sr), [`Time`] (s), [`AngularFrequency`] (rad/s), [`Temperature`] (K). [`LuminousEfficacy`] (lm/W) leads from the left half to the right.
 //!
 //! Radiant quantities hold either one number (`Flux`, short for `Flux<f64>`) or one number a lane
 //! (`Flux<Spectrum>`). Lanes are always radiant, so photometric quantities hold one number.
@@ -90,6 +90,6 @@ pub use radiant::{
 };
 pub use spectrum::Spectrum;
 pub use temperature::Temperature;
-pub use time::Time;
+pub use time::{AngularFrequency, Time};
 pub use unit::{Unit, UnitTable};
 pub use value::{Quantity, Value};

@@ -4,9 +4,9 @@ use std::fmt;
 
 use super::unit::UnitTable;
 use super::{
-    Angle, Area, Energy, Flux, Illuminance, Intensity, Irradiance, Length, Luminance,
-    LuminousEfficacy, LuminousEnergy, LuminousExposure, LuminousFlux, LuminousIntensity, Quantity,
-    Radiance, RadiantExposure, SolidAngle, Temperature, Time,
+    Angle, AngularFrequency, Area, Energy, Flux, Illuminance, Intensity, Irradiance, Length,
+    Luminance, LuminousEfficacy, LuminousEnergy, LuminousExposure, LuminousFlux, LuminousIntensity,
+    Quantity, Radiance, RadiantExposure, SolidAngle, Temperature, Time,
 };
 
 /// What a place in the input asks for: shown in every message about a quantity.
@@ -202,12 +202,13 @@ fn number_length(text: &[u8]) -> usize {
 }
 
 /// One table of each unit, so that a misplaced unit can be named.
-const KNOWN_TABLES: [&UnitTable; 19] = [
+const KNOWN_TABLES: [&UnitTable; 20] = [
     Length::TABLE,
     Area::TABLE,
     Angle::TABLE,
     SolidAngle::TABLE,
     Time::TABLE,
+    AngularFrequency::TABLE,
     Temperature::TABLE,
     Energy::TABLE,
     Flux::TABLE,
@@ -225,7 +226,7 @@ const KNOWN_TABLES: [&UnitTable; 19] = [
 ];
 
 /// Units of quantities that Steradian does not have.
-const FOREIGN_UNITS: [(&str, &str); 18] = [
+const FOREIGN_UNITS: [(&str, &str); 17] = [
     ("kg", "mass"),
     ("g", "mass"),
     ("lb", "mass"),
@@ -239,7 +240,6 @@ const FOREIGN_UNITS: [(&str, &str); 18] = [
     ("A", "current"),
     ("mA", "current"),
     ("VA", "apparent power"),
-    ("Hz", "frequency"),
     ("m3", "volume"),
     ("l", "volume"),
     ("m/s", "speed"),

@@ -24,6 +24,7 @@ const LUMINOUS_ENERGY: UnitTable = UnitTable {
     example: "2 klm h",
     units: &[
         Unit::new("lm s", 1.0, 1.0),
+        Unit::new("klm s", 1e3, 1.0),
         Unit::new("lm h", 3.6e3, 1.0),
         Unit::new("klm h", 3.6e6, 1.0),
     ],
@@ -76,6 +77,7 @@ const LUMINOUS_EXPOSURE: UnitTable = UnitTable {
     example: "50 klx h",
     units: &[
         Unit::new("lx s", 1.0, 1.0).or(&["lm s/m2"]),
+        Unit::new("klx s", 1e3, 1.0),
         Unit::new("lx h", 3.6e3, 1.0),
         Unit::new("klx h", 3.6e6, 1.0),
         Unit::new("Mlx h", 3.6e9, 1.0),

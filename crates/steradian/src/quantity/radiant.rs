@@ -30,6 +30,7 @@ const ENERGY: UnitTable = UnitTable {
         Unit::new("kJ", 1e3, 1.0),
         Unit::new("MJ", 1e6, 1.0),
         Unit::new("Wh", 3.6e3, 1.0).or(&["W h"]),
+        Unit::new("mWh", 3.6, 1.0).or(&["mW h"]),
         Unit::new("kWh", 3.6e6, 1.0).or(&["kW h"]),
         Unit::new("MWh", 3.6e9, 1.0).or(&["MW h"]),
         Unit::new("W s", 1.0, 1.0).or(&["Ws"]),
