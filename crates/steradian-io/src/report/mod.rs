@@ -1,4 +1,4 @@
-//! Results out: tables, JSON and CSV of readings; EXR, PFM, HDR and PNG pictures; shards.
+//! Results out: tables, JSON and CSV of readings; EXR, PFM, HDR and PNG pictures; SVG diagrams; shards.
 //!
 //! Every encoder turns a result into bytes or text and touches no file; [`write_atomically`] puts bytes under a name in
 //! one step, so that a run that stops half-way leaves no half-written output. The same result gives the same bytes.
@@ -16,9 +16,11 @@ pub mod json;
 pub mod numbers;
 pub mod pfm;
 pub mod picture_file;
+pub mod plot;
 pub mod png;
 pub mod run;
 pub mod shard;
+pub mod svg;
 pub mod table;
 pub mod tone;
 

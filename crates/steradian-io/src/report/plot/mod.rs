@@ -1,0 +1,66 @@
+//! Diagrams as SVG: lines over two axes, and matrices in colour.
+//!
+//! An axis states what it shows and in which unit. Numbers that no diagram can show (NaN, infinite, not positive on a
+//! logarithmic axis) are refused, not left out. Texts name fonts and carry none, so the files are small; the same
+//! diagram gives the same bytes.
+//!
+//! The crates for plots were tried and not taken: what they would save are the ticks in `scale.rs` and the legend, and
+//! for that they bring tens of thousands of lines and output that differs between calls.
+
+mod axis;
+mod cut;
+mod frame;
+mod heat_map;
+mod line_plot;
+mod scale;
+
+pub use axis::Axis;
+pub use heat_map::HeatMap;
+pub use line_plot::{LinePlot, Series};
+
+/// Why numbers make no diagram.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlotError {
+    /// There is nothing to draw.
+    #[error("there are no numbers to plot")]
+    Empty,
+    /// A number is infinite or NaN.
+    #[error("{place} holds {value}, which no diagram can show")]
+    NotFinite {
+        /// The series, row or axis.
+        place: String,
+        /// The number.
+        value: f64,
+    },
+    /// A logarithmic axis has no place for this number.
+    #[error("{place} holds {value}, which a logarithmic axis cannot show")]
+    NotPositive {
+        /// The series or axis.
+        place: String,
+        /// The number.
+        value: f64,
+    },
+    /// The ends asked for an axis do not rise.
+    #[error("the axis \"{label}\" cannot go from {from} to {to}")]
+    Range {
+        /// What the axis shows.
+        label: String,
+        /// Its first end.
+        from: f64,
+        /// Its last end.
+        to: f64,
+    },
+    /// Rows of a matrix are of different length, or there are more or fewer labels than rows or columns.
+    #[error("a matrix of {rows} x {columns} was expected, but {place} has {found}")]
+    Shape {
+        /// How many rows are labelled.
+        rows: usize,
+        /// How many columns are labelled.
+        columns: usize,
+        /// What differs.
+        place: String,
+        /// How many it has.
+        found: usize,
+    },
+}
