@@ -1,17 +1,20 @@
 //! Geometry in `f64`: points and directions, frames, spherical coordinates, foreshortening, and the closed forms
-//! for solid angles and configuration factors.
+//! for solid angles, configuration factors and form factors.
 //!
-//! Right-handed coordinates in metres with Z up. Nothing here knows of light: [`solid_angle`] and
-//! [`configuration_factor`] give numbers that other modules multiply with radiance.
+//! Right-handed coordinates in metres with Z up. Nothing here knows of light: [`solid_angle`],
+//! [`configuration_factor`] and [`form_factor`] give numbers that other modules multiply with radiance.
 
 pub mod configuration_factor;
+pub mod form_factor;
 pub mod solid_angle;
 
 mod bounds;
+mod dilogarithm;
 mod direction;
 mod foreshortening;
 mod frame;
 mod hull;
+mod gauss;
 mod point;
 mod polygon;
 mod spherical;
