@@ -2,6 +2,7 @@
 
 use super::block;
 use super::hash::combine;
+use crate::geometry::{Direction, Frame, Vector};
 
 /// Pairs of uniform numbers, independent because each is the first of a stream of its own.
 pub(crate) fn independent(seed: u64, count: u64) -> impl Iterator<Item = [f64; 2]> {
@@ -43,6 +44,89 @@ pub(crate) fn assert_proportional(counts: &[u64], sizes: &[f64]) {
         chi_squared < limit,
         "χ² {chi_squared} > {limit}: {counts:?}"
     );
+}
+
+/// Refuses points of the plane that are not uniform over the region that `inside` accepts, by χ² against the midpoint rule.
+///
+/// The box around the points is divided into 12 × 12 cells of 48 × 48 midpoints each; cells of which less than a tenth belongs
+/// to the region are left out, as the rule is uncertain there. What lies outside the box is not seen: compare the region's
+/// size with the sampler's own as well.
+#[track_caller]
+pub(crate) fn assert_uniform(
+    points: impl Iterator<Item = [f64; 2]>,
+    inside: impl Fn([f64; 2]) -> bool,
+) {
+    const CELLS: usize = 12;
+    const MIDPOINTS: usize = 48;
+    let points: Vec<_> = points.collect();
+    let fold = |start: f64, of: fn(f64, f64) -> f64| {
+        points
+            .iter()
+            .fold([start; 2], |best, p| [of(best[0], p[0]), of(best[1], p[1])])
+    };
+    let (low, high) = (
+        fold(f64::INFINITY, f64::min),
+        fold(f64::NEG_INFINITY, f64::max),
+    );
+    let scaled = |p: &[f64; 2]| [0, 1].map(|k| (p[k] - low[k]) / (high[k] - low[k]));
+    let counts = histogram(
+        CELLS * CELLS,
+        points.iter().map(|p| grid_cell(scaled(p), CELLS)),
+    );
+    let fine = CELLS * MIDPOINTS;
+    let at = |i: usize, k: usize| low[k] + (high[k] - low[k]) * (i as f64 + 0.5) / fine as f64;
+    let mut sizes = vec![0.0; CELLS * CELLS];
+    for (i, j) in (0..fine).flat_map(|i| (0..fine).map(move |j| (i, j))) {
+        if inside([at(i, 0), at(j, 1)]) {
+            sizes[i / MIDPOINTS * CELLS + j / MIDPOINTS] += 1.0;
+        }
+    }
+    let kept = |cell: &usize| sizes[*cell] >= 0.1 * (MIDPOINTS * MIDPOINTS) as f64;
+    let kept: Vec<_> = (0..CELLS * CELLS).filter(kept).collect();
+    let of = |cell: &usize| (counts[*cell], sizes[*cell]);
+    let (counts, sizes): (Vec<_>, Vec<_>) = kept.iter().map(of).unzip();
+    assert_proportional(&counts, &sizes);
+}
+
+/// Lambert's equal-area map of the sphere around the middle of some directions: solid angles become areas.
+pub(crate) struct EqualArea(Frame);
+
+impl EqualArea {
+    pub fn around(vectors: &[Vector]) -> Self {
+        let unit = |v: &Vector| *v / v.length();
+        let middle = vectors
+            .iter()
+            .map(unit)
+            .fold(Vector::ZERO, |sum, v| sum + v);
+        Self(Frame::from_normal(
+            Direction::new(middle).expect("directions that do not cancel"),
+        ))
+    }
+
+    pub fn to_plane(&self, direction: Vector) -> [f64; 2] {
+        let d = self.0.vector_to_local(direction / direction.length());
+        let scale = (2.0 / (1.0 + d.z)).sqrt();
+        [d.x * scale, d.y * scale]
+    }
+
+    pub fn direction_at(&self, [x, y]: [f64; 2]) -> Option<Vector> {
+        let squared = x * x + y * y;
+        let scale = (1.0 - 0.25 * squared).max(0.0).sqrt();
+        let local = Vector::new(x * scale, y * scale, 1.0 - 0.5 * squared);
+        (squared < 4.0).then(|| self.0.vector_to_world(local))
+    }
+}
+
+/// Azimuth and z² of a direction: areas of these coordinates are twice its projected solid angles.
+pub(crate) fn to_projected(d: Vector) -> [f64; 2] {
+    [libm::atan2(d.y, d.x), d.z * d.z]
+}
+
+/// The direction above the horizon with these coordinates.
+pub(crate) fn from_projected([azimuth, squared]: [f64; 2]) -> Vector {
+    let (sin, cos) = libm::sincos(azimuth);
+    let r = (1.0 - squared).sqrt();
+    Vector::new(r * cos, r * sin, squared.sqrt())
 }
 
 /// Refuses a mean that is more than six standard errors, and `rounding`, off.
