@@ -11,6 +11,7 @@ pub mod solid_angle;
 mod bounds;
 mod dilogarithm;
 mod direction;
+mod elliptic;
 mod foreshortening;
 mod frame;
 mod hull;

@@ -1,68 +1,15 @@
-//! Solid angles in closed form.
+//! Triangles and polygons by their corners.
 //!
-//! The solid angle of an object is the area of its projection onto the unit sphere around the observer,
-//! ω = ∫ cosθ dA / r².
+//! The triangle a, b, c, as seen from the observer, has
 //!
-//! | object | ω | source |
-//! |---|---|---|
-//! | cap of half angle α | 4π sin²(α/2) = 2π (1 − cosα) | |
-//! | sphere, radius R at distance d | the cap with sinα = R/d | |
-//! | triangle a, b, c (from the observer) | tan(ω/2) = a·(b×c) / (abc + (a·b)c + (b·c)a + (c·a)b) | Van Oosterom & Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 30 (2), 1983, eq. 8 |
-//! | plane polygon | signed sum over a fan of triangles | |
+//! tan(ω/2) = a·(b × c) / (|a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|)
 //!
-//! The patch of latitude and longitude is [`SphericalPatch`](super::SphericalPatch), the small patch
-//! [`SolidAngle::of_patch`].
-//!
-//! Flat objects have the same solid angle from both sides. As the observer comes to the plane, it tends to 0 outside the
-//! outline and to 2π inside. In the plane itself an object is edge-on and fills 0.
-//!
-//! Precision: relative errors are some 2⁻⁵² for objects of any smallness seen face on, because the triple product is
-//! formed from the edges. Close to the plane the absolute error grows as 2⁻⁵² size/height, because each triangle of a
-//! fan reacts that much to a shift of an edge right below the observer.
-//!
-//! ```
-//! use steradian::geometry::{solid_angle, Point};
-//! use std::f64::consts::PI;
-//! // The corner of a cube sees the opposite three faces in an octant: a face seen from the opposite corner fills π/6.
-//! let face = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)].map(|(x, y)| Point::new(x, y, 1.0));
-//! let found = solid_angle::of_polygon(Point::ORIGIN, &face).to_steradians();
-//! assert!((found - PI / 6.0).abs() < 1e-15);
-//! ```
+//! (Van Oosterom & Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 30 (2), 1983, eq. 8), positive or
+//! negative by the side it shows; the arc tangent has the range −π … π, so that one formula serves for all triangles. A polygon is the
+//! signed sum over a fan.
 
-use std::f64::consts::PI;
-
-use super::point::{Point, Vector};
-use crate::quantity::{Angle, Length, SolidAngle};
-
-/// The solid angle of a cone of directions: 2π (1 − cosα), to full relative precision for narrow cones.
-///
-/// ```
-/// use steradian::geometry::solid_angle;
-/// use steradian::quantity::{Angle, SolidAngle};
-/// let cone = solid_angle::of_cap(Angle::from_degrees(60.0)); // 2π (1 − ½)
-/// assert!((cone / SolidAngle::HEMISPHERE - 0.5).abs() < 1e-15);
-/// ```
-pub fn of_cap(half_angle: Angle) -> SolidAngle {
-    let sin = (half_angle / 2.0).sin();
-    SolidAngle::from_steradians(4.0 * PI * sin * sin)
-}
-
-/// The solid angle of a sphere: 2π (1 − √(1 − R²/d²)) from outside, 2π on its surface, 4π from inside.
-///
-/// A sphere of no or negative radius, or of NaN, fills nothing.
-pub fn of_sphere(observer: Point, center: Point, radius: Length) -> SolidAngle {
-    let (distance, radius) = (observer.distance(center).to_metres(), radius.to_metres());
-    if radius.is_nan() || radius <= 0.0 {
-        return SolidAngle::ZERO;
-    }
-    if distance < radius {
-        return SolidAngle::SPHERE;
-    }
-    let sin = radius / distance;
-    let cos = ((distance - radius) * (distance + radius)).sqrt() / distance;
-    // 1 − cosα = sin²α / (1 + cosα) has no cancellation.
-    SolidAngle::from_steradians(2.0 * PI * sin * sin / (1.0 + cos))
-}
+use super::super::point::{Point, Vector};
+use crate::quantity::SolidAngle;
 
 /// The solid angle of a triangle, at most 2π.
 pub fn of_triangle(observer: Point, corners: [Point; 3]) -> SolidAngle {
@@ -99,6 +46,7 @@ mod tests {
     use super::*;
     use crate::geometry::testing::{any_vector, close};
     use proptest::prelude::*;
+    use std::f64::consts::PI;
 
     fn point(x: f64, y: f64, z: f64) -> Point {
         Point::new(x, y, z)
@@ -159,32 +107,6 @@ mod tests {
         assert!(close(near.to_steradians(), 2.0 * PI, 1e-10));
         assert_eq!(of_polygon(Point::ORIGIN, &triangle[..2]), SolidAngle::ZERO);
         assert_eq!(of_polygon(Point::ORIGIN, &[]), SolidAngle::ZERO);
-    }
-
-    #[test]
-    fn spheres_from_outside_on_and_inside() {
-        let sphere = |distance, radius| {
-            of_sphere(
-                Point::ORIGIN,
-                point(distance, 0.0, 0.0),
-                Length::from_metres(radius),
-            )
-        };
-        // sinα = ½, α = 30°.
-        assert!(close(
-            sphere(2.0, 1.0) / of_cap(Angle::from_degrees(30.0)),
-            1.0,
-            1e-15
-        ));
-        assert!(close(
-            sphere(1e9, 1.0).to_steradians() / (PI * 1e-18),
-            1.0,
-            1e-15
-        ));
-        assert_eq!(sphere(1.0, 1.0), SolidAngle::HEMISPHERE);
-        assert_eq!(sphere(0.5, 1.0), SolidAngle::SPHERE);
-        assert_eq!(sphere(1.0, 0.0), SolidAngle::ZERO);
-        assert_eq!(sphere(1.0, f64::NAN), SolidAngle::ZERO);
     }
 
     #[test]
