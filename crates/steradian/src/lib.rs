@@ -17,3 +17,4 @@ pub mod sensor;
 pub mod scene;
 pub mod measurement;
 pub mod transport;
+pub mod exchange;

@@ -14,7 +14,7 @@ use super::{EstimationError, Observer, Phase, Progress};
 const BETWEEN_UPDATES: Duration = Duration::from_millis(100);
 
 /// Does jobs, each on one thread.
-pub(super) trait Worker: Sync {
+pub(crate) trait Worker: Sync {
     type Job: Send;
     type Workspace: Send;
 
@@ -24,7 +24,7 @@ pub(super) trait Worker: Sync {
 }
 
 /// Hands out jobs and takes them back in the same order.
-pub(super) trait Ledger: Send {
+pub(crate) trait Ledger: Send {
     type Job: Send;
 
     /// The next job, none when all are out.
@@ -39,17 +39,17 @@ pub(super) trait Ledger: Send {
 }
 
 /// The part of a progress that does not need a clock.
-pub(super) struct Standing {
-    pub(super) phase: Phase,
+pub(crate) struct Standing {
+    pub(crate) phase: Phase,
     /// When the samples that are counted here began.
-    pub(super) begin: Duration,
-    pub(super) samples: u64,
-    pub(super) planned: u64,
-    pub(super) relative_error: Option<f64>,
+    pub(crate) begin: Duration,
+    pub(crate) samples: u64,
+    pub(crate) planned: u64,
+    pub(crate) relative_error: Option<f64>,
 }
 
 /// Workers' memory, clock and observer of one estimation.
-pub(super) struct Crew<'a, W: Worker> {
+pub(crate) struct Crew<'a, W: Worker> {
     worker: W,
     workspaces: Vec<W::Workspace>,
     observer: &'a mut dyn Observer,
@@ -74,7 +74,7 @@ struct Shared<L: Ledger> {
 }
 
 impl<'a, W: Worker> Crew<'a, W> {
-    pub(super) fn new(
+    pub(crate) fn new(
         worker: W,
         threads: usize,
         limit: Option<Duration>,
@@ -91,12 +91,12 @@ impl<'a, W: Worker> Crew<'a, W> {
         }
     }
 
-    pub(super) fn elapsed(&self) -> Duration {
+    pub(crate) fn elapsed(&self) -> Duration {
         self.start.elapsed()
     }
 
     /// Works through the ledger; `Break` if the observer or the clock ended it before.
-    pub(super) fn run<L: Ledger<Job = W::Job>>(
+    pub(crate) fn run<L: Ledger<Job = W::Job>>(
         &mut self,
         ledger: L,
     ) -> Result<ControlFlow<()>, EstimationError> {

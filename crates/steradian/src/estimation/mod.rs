@@ -28,7 +28,7 @@
 
 mod account;
 mod cells;
-mod crew;
+pub(crate) mod crew;
 mod error;
 mod estimate;
 pub mod film;

@@ -39,7 +39,7 @@ pub enum Phase {
 
 impl Phase {
     /// Keeps the random numbers of the phases apart.
-    pub(super) fn key(self) -> u64 {
+    pub(crate) fn key(self) -> u64 {
         match self {
             Self::Pilot => 0,
             Self::Final => 1,

@@ -71,6 +71,23 @@ impl Scene {
     /// All problems together; those of sensors leave out what other problems already explain.
     pub fn new(description: &SceneDescription) -> Result<Self, Vec<Problem>> {
         let mut problems = Vec::new();
+        check_light(description, &mut problems);
+        check_sensors(description, &mut problems);
+        Self::validated(description, problems)
+    }
+
+    /// The same for what is asked of surfaces alone, such as form factors: a scene without lights and sensors will do.
+    ///
+    /// # Errors
+    /// All problems together.
+    pub fn of_surfaces(description: &SceneDescription) -> Result<Self, Vec<Problem>> {
+        Self::validated(description, Vec::new())
+    }
+
+    fn validated(
+        description: &SceneDescription,
+        mut problems: Vec<Problem>,
+    ) -> Result<Self, Vec<Problem>> {
         match Self::prepare(description, &mut problems) {
             Some(scene) if problems.is_empty() => Ok(scene),
             _ => Err(problems),
@@ -87,7 +104,6 @@ impl Scene {
         let mut lights = lights::Builder::new(&lanes, efficacy, &mut curves);
         lights.add_emission(&description.shapes, &mut forms, &placed, problems);
         lights.add_lights(&description.lights, problems);
-        check_light(description, problems);
         let surfaces = Surfaces::new(placed, anchor(description))
             .map_err(|error| problems.push(Problem::of(Part::Scene, error.to_string())))
             .ok()?;
@@ -242,6 +258,15 @@ fn check_light(description: &SceneDescription, problems: &mut Vec<Problem>) {
         problems.push(
             Problem::of(Part::Scene, "the scene has no light")
                 .with_hint("add a [[lights]] entry, or `emission` to a shape"),
+        );
+    }
+}
+
+fn check_sensors(description: &SceneDescription, problems: &mut Vec<Problem>) {
+    if description.sensors.is_empty() {
+        problems.push(
+            Problem::of(Part::Scene, "the scene has no sensor")
+                .with_hint("add a [[sensors]] entry"),
         );
     }
 }

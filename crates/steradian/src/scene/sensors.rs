@@ -30,12 +30,6 @@ pub(super) struct Context<'a> {
 
 pub(super) fn prepare(context: &Context, problems: &mut Vec<Problem>) -> Vec<Sensor> {
     let descriptions = &context.description.sensors;
-    if descriptions.is_empty() {
-        problems.push(
-            Problem::of(Part::Scene, "the scene has no sensor")
-                .with_hint("add a [[sensors]] entry"),
-        );
-    }
     let mut sensors = Vec::new();
     for (index, description) in descriptions.iter().enumerate() {
         let (part, name) = (Part::Sensor(index), &description.name);

@@ -294,6 +294,9 @@ fn no_light_and_no_sensor() {
     description.sensors.clear();
     one_problem(&description, Part::Scene, None, "no sensor");
     assert!(problems(&description)[0].hint.is_some());
+    description.lights.clear();
+    assert_eq!(problems(&description).len(), 2);
+    assert!(Scene::of_surfaces(&description).is_ok());
 }
 
 #[test]
