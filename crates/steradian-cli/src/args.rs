@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::{area, direction, help, inspect, measure, merge, render, verify};
+use crate::{area, direction, energy, help, inspect, measure, merge, render, verify};
 
 /// Light in SI units: radiance, irradiance and flux in a scene, each number with its unit and an error bar.
 ///
@@ -44,6 +44,8 @@ pub enum Command {
     Area(area::Arguments),
     /// Convert a direction between angles and a vector
     Direction(direction::Arguments),
+    /// Integrate a flux over time, or turn the readings of an energy meter into fluxes
+    Energy(energy::Arguments),
     /// Explain a subcommand, or `scene`: the keys of a scene file
     Help(help::Arguments),
 }

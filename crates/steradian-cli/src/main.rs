@@ -3,6 +3,7 @@
 mod area;
 mod args;
 mod direction;
+mod energy;
 mod engine;
 mod help;
 mod inspect;
@@ -43,6 +44,7 @@ fn run(command: Command) -> Result<Outcome, Failure> {
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Area(arguments) => area::run(&arguments),
         Command::Direction(arguments) => direction::run(&arguments),
+        Command::Energy(arguments) => energy::run(&arguments),
         Command::Help(arguments) => help::run(&arguments),
     }
 }

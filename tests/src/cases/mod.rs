@@ -12,8 +12,8 @@ mod skips;
 mod table;
 
 pub use experiment::{Experiment, Outcome, REL_ERROR};
-pub use skips::{SKIPS, Skip, skip_of};
-pub use table::{Case, tables};
+pub use skips::{SKIPS, Skip, TIME_SKIPS, skip_of};
+pub use table::{Case, tables, time_table};
 
 /// The scenes that stand for a case; none for a kind that is not known.
 pub fn experiments(case: &Case) -> Option<Vec<Experiment>> {

@@ -64,6 +64,18 @@ pub const SKIPS: &[Skip] = &[
     skip("cie171_like/sc_erc_facade_opening/4x3_type3", 1, SKY),
 ];
 
+const MOVING: &str = "needs a light that moves";
+const LIGHT_TIME: &str = "is about the time that light takes, not about steady light";
+
+/// Those of the table of what happens in time.
+pub const TIME_SKIPS: &[Skip] = &[
+    skip("time/moving_point_source", 1, MOVING),
+    skip("time/daily_", 6, SUN),
+    skip("time/annual_", 5, SUN),
+    skip("time/sphere_pulse_tail", 1, LIGHT_TIME),
+    skip("time/time_of_flight", 2, LIGHT_TIME),
+];
+
 /// Why this case is not run, if it is not.
 pub fn skip_of(id: &str) -> Option<&'static Skip> {
     SKIPS.iter().find(|skip| id.starts_with(skip.prefix))

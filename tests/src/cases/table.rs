@@ -13,6 +13,9 @@ const TABLES: [&str; 6] = [
     include_str!("../../data/cases/cie171-like.json"),
 ];
 
+/// The table of what happens in time, each case of which a command answers by itself.
+const TIME: &str = include_str!("../../data/cases/time.json");
+
 /// One line of a table.
 pub struct Case {
     /// Group, kind and name: `group/kind/name`.
@@ -24,16 +27,22 @@ pub struct Case {
     abs_error: f64,
 }
 
-/// All cases of all tables.
+/// All cases of the tables of scenes.
 pub fn tables() -> Vec<Case> {
-    let cases = |text: &str| {
-        let mut table: Value = serde_json::from_str(text).expect("a table is JSON");
-        let Value::Array(cases) = table["cases"].take() else {
-            panic!("a table has cases")
-        };
-        cases.into_iter().map(Case::new)
-    };
     TABLES.into_iter().flat_map(cases).collect()
+}
+
+/// The cases of the table of what happens in time.
+pub fn time_table() -> Vec<Case> {
+    cases(TIME).collect()
+}
+
+fn cases(text: &str) -> impl Iterator<Item = Case> {
+    let mut table: Value = serde_json::from_str(text).expect("a table is JSON");
+    let Value::Array(cases) = table["cases"].take() else {
+        panic!("a table has cases")
+    };
+    cases.into_iter().map(Case::new)
 }
 
 impl Case {

@@ -2,7 +2,7 @@
 
 use steradian_tests::command::{root, steradian};
 
-const SUBCOMMANDS: [&str; 7] = [
+const SUBCOMMANDS: [&str; 8] = [
     "render",
     "measure",
     "inspect",
@@ -10,6 +10,7 @@ const SUBCOMMANDS: [&str; 7] = [
     "merge",
     "area",
     "direction",
+    "energy",
 ];
 
 #[test]

@@ -11,6 +11,7 @@ pub mod ply;
 pub mod points;
 pub mod polygon;
 mod scene;
+pub mod series;
 pub mod spectrum;
 pub mod stl;
 

@@ -46,6 +46,17 @@ impl Unit {
         value * self.multiplier / self.divisor
     }
 
+    /// `value` in SI units, in this unit.
+    ///
+    /// ```
+    /// use steradian::quantity::{Energy, Quantity};
+    /// let watt_hour = Energy::TABLE.find("Wh").unwrap();
+    /// assert_eq!(watt_hour.of_si(9000.0), 2.5);
+    /// ```
+    pub const fn of_si(&self, value: f64) -> f64 {
+        value * self.divisor / self.multiplier
+    }
+
     fn is_spelled(&self, text: &str, factors: Option<&Factors>) -> bool {
         std::iter::once(&self.symbol)
             .chain(self.aliases)
