@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::{Direction, Point, Vector};
+use crate::geometry::{Direction, Point, Polygon, Vector};
 use crate::scene::Scene;
 use crate::shape::{Disc, Form, PartId, ShapeId, Sphere, Surfaces, TriangleMesh};
 
@@ -93,6 +93,8 @@ pub struct Facets<'a> {
     of_primitive: Vec<[u32; 2]>,
     /// How far rays start above each facet.
     lift: Vec<f64>,
+    /// The polygons as closed forms want them.
+    outlines: Vec<Option<Polygon>>,
     /// Facets of each shape, of one side.
     in_shape: Vec<u32>,
 }
@@ -112,6 +114,7 @@ impl<'a> Facets<'a> {
                 surfaces.triangles().len() + surfaces.quadrics().len()
             ],
             lift: Vec::new(),
+            outlines: Vec::new(),
             in_shape: vec![0; surfaces.shapes().len()],
         };
         for index in 0..surfaces.shapes().len() {
@@ -164,6 +167,11 @@ impl<'a> Facets<'a> {
     /// How far above a facet rays start.
     pub(super) fn lift(&self, index: usize) -> f64 {
         self.lift[index]
+    }
+
+    /// The polygon of a facet, if it is one.
+    pub(super) fn outline(&self, index: usize) -> Option<&Polygon> {
+        self.outlines[index].as_ref()
     }
 
     fn add_shape(&mut self, id: ShapeId, sides: Sides) {
@@ -243,6 +251,7 @@ impl<'a> Facets<'a> {
             }
             let area = extent.area();
             self.lift.push(self.lift_of(&extent));
+            self.outlines.push(extent.outline());
             self.list.push(Facet {
                 shape,
                 part,
@@ -272,6 +281,13 @@ impl<'a> Facets<'a> {
 }
 
 impl Extent {
+    fn outline(&self) -> Option<Polygon> {
+        match self {
+            Self::Polygon(polygon) => Polygon::new(polygon.corners().to_vec(), Vec::new()).ok(),
+            Self::Disc(_) | Self::Sphere(_) => None,
+        }
+    }
+
     fn area(&self) -> f64 {
         match self {
             Self::Polygon(polygon) => polygon.area(),

@@ -5,9 +5,10 @@ use std::time::Duration;
 use steradian_kernel::InstructionSet;
 
 use super::assembly::Assembly;
-use super::effort::Rule;
+use super::effort::{Found, Rule};
 use super::facets::Facets;
 use super::grouping::Groups;
+use super::pairs::{PairCaster, PairWorkspace};
 use super::rays::{RayCaster, RayWorkspace, Traced};
 use super::row::{Entry, Row};
 use super::uncertain::Uncertain;
@@ -18,6 +19,9 @@ use crate::sampling::hash::{combine, key_of_name};
 /// How factors are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Technique {
+    /// Pair by pair: exactly where nothing stands between, else by rays between the two. Reciprocity is exact, and small factors are
+    /// known as well as large ones. The cost grows as n². Spheres and discs get rows by rays.
+    Pairs,
     /// Whole rows by rays. Closure is exact, and the error of a factor is that of counting: with N rays about √(F/N).
     Rays,
 }
@@ -27,6 +31,8 @@ pub enum Technique {
 pub struct MatrixOptions {
     /// How factors are found.
     pub technique: Technique,
+    /// Whether rows of pairs come with [`Rest`](super::Rest) too, for which rays are sent.
+    pub rest: bool,
     /// Instruction set of the ray queries; has no influence on the result.
     pub instruction_set: InstructionSet,
 }
@@ -53,10 +59,12 @@ pub struct MatrixSummary {
     pub rows: usize,
     /// Rows that missed the tolerance.
     pub missed: usize,
-    /// Factors found by a formula.
+    /// Factors that are not 0 and were found by a formula.
     pub closed_forms: u64,
     /// Sampled factors.
     pub estimates: u64,
+    /// Sampled factors of which no sample was seen: their standard error is all that is known of them.
+    pub unseen: u64,
     /// Rays.
     pub samples: u64,
     /// Whether every row is there.
@@ -129,18 +137,31 @@ pub fn matrix(
         return Err(ExchangeError::Plan(message));
     }
     let floor = (1.0 / groups.count() as f64).min(0.01);
+    let (rule, set) = (Rule::new(plan, floor), options.instruction_set);
+    let by_pairs = options.technique == Technique::Pairs;
+    let facets_themselves: Vec<u32> = (0..facets.count() as u32).collect();
+    let columns = if by_pairs {
+        &facets_themselves
+    } else {
+        groups.of_facet()
+    };
     let surveyor = Surveyor {
         rays: RayCaster {
             facets,
-            columns: groups.of_facet(),
-            set: options.instruction_set,
+            columns,
+            set,
         },
-        rule: Rule::new(plan, floor),
-        columns: groups.count(),
+        pairs: PairCaster { facets, rule, set },
+        options: *options,
+        columns: if by_pairs {
+            facets.count()
+        } else {
+            groups.count()
+        },
     };
     let mut summary = MatrixSummary::default();
     let mut crew = Crew::new(surveyor, plan.threads, None::<Duration>, observer);
-    let ledger = Assembly::new(facets, groups, sink, &mut summary);
+    let ledger = Assembly::new(facets, groups, by_pairs, sink, &mut summary);
     summary.complete = crew.run(ledger)?.is_continue();
     Ok(summary)
 }
@@ -148,7 +169,8 @@ pub fn matrix(
 /// Finds what is asked of one facet.
 pub(super) struct Surveyor<'a> {
     rays: RayCaster<'a>,
-    rule: Rule,
+    pairs: PairCaster<'a>,
+    options: MatrixOptions,
     columns: usize,
 }
 
@@ -156,41 +178,93 @@ pub(super) struct Surveyor<'a> {
 pub(super) struct Survey {
     pub facet: usize,
     pub traced: Option<Traced>,
+    /// Exchange areas with facets of higher numbers.
+    pub pairs: Vec<Entry>,
     pub samples: u64,
     pub converged: bool,
+}
+
+impl Survey {
+    pub fn of(facet: usize) -> Self {
+        Self {
+            facet,
+            traced: None,
+            pairs: Vec::new(),
+            samples: 0,
+            converged: true,
+        }
+    }
 }
 
 /// Rays of each replicate in the pilot of a row.
 const PILOT: u32 = 1024;
 
+/// Scratch of a thread.
+pub(super) struct Workspace {
+    rays: RayWorkspace,
+    pairs: PairWorkspace,
+}
+
 impl Surveyor<'_> {
-    fn by_rays(&self, facet: usize, workspace: &mut RayWorkspace) -> (Traced, u64, bool) {
-        let identity = combine(key_of_name("row"), facet as u64);
-        self.rule.sample(identity, PILOT, |attempt| {
-            let replicates = self.rule.replicates;
+    /// A row by rays, or its rest alone.
+    fn trace(&self, survey: &mut Survey, rest_only: bool, workspace: &mut RayWorkspace) {
+        let identity = combine(key_of_name("row"), survey.facet as u64);
+        let rule = &self.pairs.rule;
+        let (traced, samples, converged) = rule.sample(identity, PILOT, |attempt| {
+            let (facet, samples) = (survey.facet, attempt.samples);
             let traced = self
                 .rays
-                .row(facet, attempt.key, replicates, attempt.samples, workspace);
-            let factors = traced.entries.iter().map(Entry::factor);
+                .row(facet, attempt.key, rule.replicates, samples, workspace);
+            let factors = traced
+                .entries
+                .iter()
+                .filter(|_| !rest_only)
+                .map(Entry::factor);
             let excess = factors
-                .map(|factor| self.rule.excess(&factor))
-                .fold(0.0, f64::max);
-            (traced, excess)
-        })
+                .chain([traced.rest.sky])
+                .map(|factor| rule.excess(&factor));
+            Found {
+                excess: excess.fold(0.0, f64::max),
+                order: Rule::ORDER,
+                value: traced,
+            }
+        });
+        survey.traced = Some(traced);
+        survey.samples += samples;
+        survey.converged &= converged;
+    }
+
+    fn pair_up(&self, survey: &mut Survey, workspace: &mut PairWorkspace) {
+        for to in survey.facet + 1..self.pairs.facets.count() {
+            let Some(found) = self.pairs.exchange(survey.facet, to, workspace) else {
+                continue;
+            };
+            survey.pairs.push(found.area);
+            survey.samples += found.samples;
+            survey.converged &= found.converged;
+        }
     }
 }
 
 impl Worker for Surveyor<'_> {
     type Job = Survey;
-    type Workspace = RayWorkspace;
+    type Workspace = Workspace;
 
-    fn new_workspace(&self) -> RayWorkspace {
-        RayWorkspace::new(self.columns)
+    fn new_workspace(&self) -> Workspace {
+        Workspace {
+            rays: RayWorkspace::new(self.columns),
+            pairs: PairWorkspace::default(),
+        }
     }
 
-    fn perform(&self, survey: &mut Survey, workspace: &mut RayWorkspace) {
-        let (traced, samples, converged) = self.by_rays(survey.facet, workspace);
-        survey.traced = Some(traced);
-        (survey.samples, survey.converged) = (samples, converged);
+    fn perform(&self, survey: &mut Survey, workspace: &mut Workspace) {
+        let is_polygon = self.rays.facets.list()[survey.facet].polygon().is_some();
+        if self.options.technique == Technique::Rays || !is_polygon {
+            return self.trace(survey, false, &mut workspace.rays);
+        }
+        self.pair_up(survey, &mut workspace.pairs);
+        if self.options.rest {
+            self.trace(survey, true, &mut workspace.rays);
+        }
     }
 }

@@ -23,6 +23,7 @@ mod effort;
 mod facets;
 mod grouping;
 mod matrix;
+mod pairs;
 mod polygon;
 mod rays;
 mod row;

@@ -7,7 +7,8 @@
 //! All entries of a row come from the same rays, so in a closed enclosure they add up to 1 exactly. Every sample is 0 or 1, so
 //! no weight is above 1. The variance of a replicate is about F(1 − F)/N, that of independent rays, or less.
 //!
-//! A surface that no ray meets gets no entry. Its factor is then, with 95 % confidence, below 3/N (N of all replicates).
+//! Replicates that agree by chance, or because all rays meet j, do not make a factor exact: no standard error is below 1/(N + 2), N of
+//! all replicates. A surface that no ray meets gets no entry. Its factor is then, with 95 % confidence, below 3/N.
 //!
 //! Source: T. Walker, S.-C. Xue & G. W. Barton, *Numerical determination of radiative view factors using ray tracing*, ASME J. Heat
 //! Transfer 132 (7), 2010.
@@ -80,12 +81,13 @@ impl RayWorkspace {
         Uncertain::from_replicates(replicates, sum, squares)
     }
 
-    /// Takes the result and clears everything.
-    fn take(&mut self, replicates: u32) -> Traced {
+    /// Takes the result and clears everything. No factor is known better than to `resolution`.
+    fn take(&mut self, replicates: u32, resolution: f64) -> Traced {
         self.seen.sort_unstable();
         let surfaces = self.seen.iter().filter(|&&column| column as usize >= FIRST);
         let entries = surfaces.map(|&column| {
-            let found = self.uncertain(column as usize, replicates);
+            let mut found = self.uncertain(column as usize, replicates);
+            found.std_error = found.std_error.max(resolution);
             Entry::estimated(column - FIRST as u32, found)
         });
         let traced = Traced {
@@ -139,7 +141,8 @@ impl RayCaster<'_> {
             }
             workspace.close(1.0 / (share * f64::from(samples)));
         }
-        workspace.take(replicates)
+        let total = f64::from(samples) * f64::from(replicates);
+        workspace.take(replicates, 1.0 / (share * (total + 2.0)))
     }
 
     fn start(

@@ -1,10 +1,11 @@
 //! Matrices of scenes with known answers.
 
+mod pairs;
 mod rays;
 
 use super::*;
 use crate::estimation::{Plan, Silent, Stopping};
-use crate::geometry::{Point, Transform, Vector};
+use crate::geometry::{Transform, Vector};
 use crate::scene::Scene;
 use crate::scene::description::{GeometryDescription, SceneDescription, ShapeDescription};
 use steradian_kernel::InstructionSet;
@@ -36,9 +37,9 @@ fn cuboid(min: [f64; 3], max: [f64; 3], inside: bool) -> GeometryDescription {
     }
 }
 
-fn sphere(radius: f64, inside: bool) -> GeometryDescription {
+fn sphere(center: [f64; 3], radius: f64, inside: bool) -> GeometryDescription {
     GeometryDescription::Sphere {
-        center: Point::ORIGIN,
+        center: center.into(),
         radius,
         inside,
         ports: vec![],
@@ -56,6 +57,7 @@ fn rows(
     let groups = Groups::new(&facets, grouping);
     let options = MatrixOptions {
         technique,
+        rest: false,
         instruction_set: InstructionSet::detect(),
     };
     let plan = Plan {

@@ -5,8 +5,8 @@ use crate::quantity::Angle;
 use crate::scene::description::Port;
 
 /// Faces of the unit cube: opposite .19982490, adjacent .20004378.
-const OPPOSITE: f64 = 0.199_824_895_698_387_2;
-const ADJACENT: f64 = 0.200_043_776_075_403_2;
+pub(super) const OPPOSITE: f64 = 0.199_824_895_698_387_2;
+pub(super) const ADJACENT: f64 = 0.200_043_776_075_403_2;
 
 #[test]
 fn a_cube_is_closed_and_has_the_known_factors() {
@@ -28,8 +28,8 @@ fn a_cube_is_closed_and_has_the_known_factors() {
 #[test]
 fn concentric_spheres() {
     let spheres = scene(vec![
-        ("inner", sphere(1.0, false)),
-        ("outer", sphere(2.0, true)),
+        ("inner", sphere([0.0; 3], 1.0, false)),
+        ("outer", sphere([0.0; 3], 2.0, true)),
     ]);
     let (rows, summary) = rows(
         &spheres,
@@ -56,7 +56,7 @@ fn a_sphere_with_a_port_sees_the_sky_through_it() {
         radius,
         inside,
         ..
-    } = sphere(1.0, true)
+    } = sphere([0.0; 3], 1.0, true)
     else {
         unreachable!()
     };
@@ -94,6 +94,7 @@ fn groups_add_up_and_threads_do_not_matter() {
     let groups = Groups::new(&facets, Grouping::Face);
     let options = MatrixOptions {
         technique: Technique::Rays,
+        rest: false,
         instruction_set: InstructionSet::Scalar,
     };
     let bits = |threads| {
@@ -119,6 +120,7 @@ fn plans_that_a_matrix_cannot_follow() {
     let groups = Groups::new(&facets, Grouping::Face);
     let options = MatrixOptions {
         technique: Technique::Rays,
+        rest: false,
         instruction_set: InstructionSet::detect(),
     };
     let plan = Plan {
