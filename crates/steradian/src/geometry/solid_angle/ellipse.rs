@@ -241,7 +241,7 @@ mod tests {
             let expected = by_quadrature(center, [u, v]);
             let found = of_ellipse(Point::ORIGIN, Point::ORIGIN + center, [u, v]).to_steradians();
             // The terms of the sum are of the size of the half axes, whatever their sum.
-            let tolerance = 1e-12 * expected + 1e-15 * (u.length() + v.length());
+            let tolerance = 1e-12 * expected + 1e-14 * (u.length() + v.length());
             prop_assert!(close(found, expected, tolerance), "{found} {expected}");
         }
 

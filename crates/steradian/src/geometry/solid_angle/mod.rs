@@ -9,6 +9,8 @@
 //! | sphere, radius R at distance d | the cap with sinα = R/d | |
 //! | disc, ellipse | a complete elliptic integral of the cone they span | Paxton 1959; see [`of_ellipse`] |
 //! | triangle, plane polygon | signed sum over a fan of triangles | Van Oosterom & Strackee 1983, eq. 8 |
+//! | polygon on the sphere | 2π − Σ turns | Gauss & Bonnet; see [`of_spherical_polygon`] |
+//! | box, convex mesh | sums over faces; see [`of_box`], [`of_convex_mesh`] | |
 //!
 //! The patch of latitude and longitude is [`SphericalPatch`](super::SphericalPatch), the small patch
 //! [`SolidAngle::of_patch`].
@@ -28,7 +30,11 @@ mod ellipse;
 mod jacobi;
 mod polygon;
 mod round;
+mod solid;
+mod spherical_polygon;
 
 pub use ellipse::{of_disc, of_ellipse};
-pub use polygon::{of_polygon, of_triangle};
+pub use polygon::{of_polygon, of_polygon_above_horizon, of_triangle};
 pub use round::{of_cap, of_sphere};
+pub use solid::{of_box, of_convex_mesh, winding_number};
+pub use spherical_polygon::{SphericalPolygonError, of_spherical_polygon};

@@ -8,6 +8,8 @@
 //! negative by the side it shows; the arc tangent has the range −π … π, so that one formula serves for all triangles. A polygon is the
 //! signed sum over a fan.
 
+use super::super::configuration_factor::above_horizon;
+use super::super::direction::Direction;
 use super::super::point::{Point, Vector};
 use crate::quantity::SolidAngle;
 
@@ -29,8 +31,30 @@ pub fn of_polygon(observer: Point, outline: &[Point]) -> SolidAngle {
     SolidAngle::from_steradians(sum.abs())
 }
 
+/// The solid angle of the part of a plane polygon that is above the horizon of an element of this normal at the observer.
+///
+/// ```
+/// use steradian::geometry::{Direction, Point, solid_angle};
+/// // A wall of which the horizon halves what is seen.
+/// let wall = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(y, z)| Point::new(1.0, y, z));
+/// let seen = solid_angle::of_polygon_above_horizon(Point::ORIGIN, Direction::Z, &wall);
+/// assert!((seen / solid_angle::of_polygon(Point::ORIGIN, &wall) - 0.5).abs() < 1e-15);
+/// ```
+pub fn of_polygon_above_horizon(
+    observer: Point,
+    normal: Direction,
+    outline: &[Point],
+) -> SolidAngle {
+    let vertices: Vec<Vector> = outline.iter().map(|&vertex| vertex - observer).collect();
+    let visible: Vec<Point> = above_horizon(&vertices, normal)
+        .into_iter()
+        .map(|vertex| Point::ORIGIN + vertex)
+        .collect();
+    of_polygon(Point::ORIGIN, &visible)
+}
+
 /// Positive if the corners run clockwise as seen by the observer, in which case (b − a) × (c − a) points away.
-fn signed(observer: Point, corners: [Point; 3]) -> f64 {
+pub(super) fn signed(observer: Point, corners: [Point; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| corner - observer);
     let [la, lb, lc] = [a, b, c].map(Vector::length);
     let volume = a.dot((corners[1] - corners[0]).cross(corners[2] - corners[0]));
@@ -44,7 +68,7 @@ fn signed(observer: Point, corners: [Point; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::testing::{any_vector, close};
+    use crate::geometry::testing::{any_direction, any_vector, close};
     use proptest::prelude::*;
     use std::f64::consts::PI;
 
@@ -166,6 +190,19 @@ mod tests {
             let normal = (b - a).cross(c - a);
             prop_assume!(normal.dot(eye - a).abs() > 1e-2 * normal.length());
             prop_assert!(close(parts.to_steradians(), of_triangle(eye, [a, b, c]).to_steradians(), 1e-12));
+        }
+
+        #[test]
+        fn both_sides_of_a_horizon_make_the_polygon(
+            corners in prop::array::uniform3(any_vector(1.0)), eye in any_vector(2.0), normal in any_direction(),
+        ) {
+            let [a, b, c] = corners.map(|v| Point::ORIGIN + v);
+            let eye = Point::ORIGIN + eye;
+            let face = (b - a).cross(c - a);
+            prop_assume!(face.dot(eye - a).abs() > 1e-2 * face.length());
+            let parts = [normal, -normal].map(|normal| of_polygon_above_horizon(eye, normal, &[a, b, c]));
+            let sum = parts[0] + parts[1];
+            prop_assert!(close(sum.to_steradians(), of_triangle(eye, [a, b, c]).to_steradians(), 1e-12));
         }
     }
 }
