@@ -39,6 +39,7 @@ mod strip;
 
 pub use cylinder::of_cylinder;
 pub use disc::of_disc;
+pub(super) use polygon::above_horizon;
 pub use polygon::{of_polygon, projected_solid_angle_of_polygon};
 pub use sphere::of_sphere;
 pub use strip::of_strip;

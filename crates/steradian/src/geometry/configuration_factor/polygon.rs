@@ -55,7 +55,7 @@ pub(super) fn edge_term(normal: Direction, from: Vector, to: Vector) -> f64 {
 
 /// The part of a polygon with n·r ≥ 0 (Sutherland & Hodgman, CACM 17 (1), 1974). A concave polygon may fall apart; the
 /// double edges along the horizon that then join its parts cancel in the sum.
-pub(super) fn above_horizon(vertices: &[Vector], normal: Direction) -> Vec<Vector> {
+pub(in crate::geometry) fn above_horizon(vertices: &[Vector], normal: Direction) -> Vec<Vector> {
     let mut visible = Vec::with_capacity(vertices.len() + 2);
     for (from, to) in edges(vertices) {
         let (height_from, height_to) = (normal.dot(from), normal.dot(to));
