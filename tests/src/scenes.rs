@@ -221,6 +221,7 @@ impl Shaping for ShapeDescription {
             textures: vec![],
             two_sided: false,
             group: None,
+            schedule: None,
         };
         Self {
             emission: Some(emission),
@@ -291,6 +292,7 @@ pub fn light(kind: LightKind) -> LightDescription {
         name: None,
         group: None,
         spectrum: None,
+        schedule: None,
         repeat: None,
         kind,
     }

@@ -141,10 +141,6 @@ impl Arguments {
                 "give --duration or --to: a formula has no end",
             ));
         };
-        Interval::new(from, to).map_err(failure)
+        Ok(Interval::new(from, to)?)
     }
-}
-
-fn failure(error: impl std::error::Error + Send + Sync + 'static) -> Failure {
-    Failure::Other(error.into())
 }

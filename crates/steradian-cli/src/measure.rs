@@ -5,8 +5,11 @@ use std::time::Duration;
 
 use clap::Args;
 use steradian::estimation::{Plan, Stopping};
+use steradian::measurement::Dimming;
+use steradian::quantity::Time;
 use steradian::scene::Scene;
 use steradian::scene::description::{Receivers, SceneDescription, SensorDescription, SensorKind};
+use steradian::time::Interval;
 use steradian::transport::{MeasureOptions, measure};
 
 use crate::engine::Engine;
@@ -25,6 +28,9 @@ const DEFAULT_REL_ERROR: f64 = 0.01;
 /// Each reading is printed with the half-width of its 95 % confidence interval, or as exact where a closed form was used.
 /// The run stops when every interval is narrow enough: by default ± 1 % of the value, where readings below 1 % of their
 /// sensor's mean need not be known any better than one at that level.
+///
+/// Lights may have a schedule, factors in the course of time. Readings are those of factor 1, or with --at those of a time; with
+/// --duration each is also added up over an interval, exactly and without tracing light again.
 ///
 /// Lights given in watts give readings in W/m2, W, W/(m2 sr); lights given in lumens or candela give lx, lm, cd/m2.
 #[derive(Args, Debug)]
@@ -45,6 +51,8 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
+    when: When,
+    #[command(flatten)]
     stop: Stop,
     #[command(flatten)]
     engine: Engine,
@@ -55,7 +63,45 @@ Examples:
   steradian measure scenes/point-light.toml
   steradian measure scenes/closed-room.toml --rel-error 0.2% --format json -o room.json
   steradian measure scenes/lamps-equal.toml --time 10s --format csv
+  steradian measure scenes/working-day.toml --start 7h --duration 12h
   steradian measure scenes/furnace.toml --samples 65536 --shard 1/3 -o part1";
+
+/// What schedules are asked.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Time (schedules of lights)")]
+struct When {
+    /// Add readings up over so much time as well: radiant exposure (J/m2, Wh/m2), energy (J, Wh), luminous exposure (lx h) …
+    #[arg(long, value_name = "TIME")]
+    duration: Option<Time>,
+    /// When that begins
+    #[arg(
+        long,
+        value_name = "TIME",
+        requires = "duration",
+        default_value = "0 h",
+        allow_hyphen_values = true
+    )]
+    start: Time,
+    /// Take the readings themselves at this time [default: with all lights at factor 1]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    at: Option<Time>,
+}
+
+impl When {
+    /// How much light each group of the scene gives.
+    fn dimming(&self, scene: &Scene) -> Result<Dimming, Failure> {
+        let groups = scene.groups();
+        let mut dimming = Dimming::new(scene.schedules().to_vec());
+        if let Some(time) = self.at {
+            dimming = dimming.at(time, groups)?;
+        }
+        if let Some(duration) = self.duration {
+            let interval = Interval::lasting(duration, self.start)?;
+            dimming = dimming.over(interval, groups)?;
+        }
+        Ok(dimming)
+    }
+}
 
 /// When to stop.
 #[derive(Args, Debug)]
@@ -81,8 +127,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         add_points(arguments, description)
     })?;
     let options = options(arguments, &loaded.scene)?;
+    let dimming = arguments.when.dimming(&loaded.scene)?;
     let mut watch = Watch::new()?;
-    let measurements = measure(&loaded.scene, &options, &mut watch)?;
+    let mut measurements = measure(&loaded.scene, &options, &mut watch)?;
+    measurements.dimming = dimming;
     if watch.finish() {
         remark("stopped by Ctrl-C: these are the readings so far");
     }

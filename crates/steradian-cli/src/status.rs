@@ -4,6 +4,8 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use steradian::estimation::EstimationError;
+use steradian::measurement::ScheduleError;
+use steradian::time::TimeError;
 use steradian::transport::SimulationError;
 use steradian_io::diagnostic::{self, Diagnostic};
 use steradian_io::report::ReportError;
@@ -66,6 +68,18 @@ impl From<EstimationError> for Failure {
 
 impl From<SimulationError> for Failure {
     fn from(error: SimulationError) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+impl From<TimeError> for Failure {
+    fn from(error: TimeError) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+impl From<ScheduleError> for Failure {
+    fn from(error: ScheduleError) -> Self {
         Self::Other(error.into())
     }
 }

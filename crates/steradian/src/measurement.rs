@@ -3,7 +3,12 @@
 //! A result keeps the replicate means of every column, so that sums, shares and dimmed groups keep their covariances
 //! and so that shards can be put together bit for bit. Only [`Estimate`]s leave it.
 
+mod dimming;
+mod exposure;
 mod merge;
+
+pub use dimming::{Dimming, ScheduleError};
+pub use exposure::Exposure;
 
 use serde::{Deserialize, Serialize};
 
@@ -65,8 +70,11 @@ pub struct Measurements {
     pub max_depth: Option<u32>,
     /// The lanes.
     pub lanes: Vec<LaneRecord>,
-    /// The light groups.
+    /// The light groups; a name stands once for each schedule that its lights have.
     pub groups: Vec<String>,
+    /// How much light each group gives in the course of time, and what is asked about it.
+    #[serde(default)]
+    pub dimming: Dimming,
     /// The sensors.
     pub sensors: Vec<SensorRecord>,
     /// Path classes that no estimator could sample.
@@ -101,8 +109,10 @@ pub struct Reading {
     /// By lane, of the lanes that count: a band without light has no part in a photometric value. They add up to the
     /// value, but in `rgb`, where the value is their luminance-weighted mean.
     pub channels: Vec<(String, Estimate)>,
-    /// By light group; they add up to the value.
+    /// By name of the light group; they add up to the value.
     pub groups: Vec<(String, Estimate)>,
+    /// What it adds up to over the interval asked for.
+    pub exposure: Option<Exposure>,
 }
 
 impl Measurements {
@@ -144,18 +154,34 @@ impl Measurements {
             sits_on: point.sits_on.clone(),
             quantity: quantity.name.clone(),
             unit: quantity.unit.clone(),
-            estimate: self.combine(point, |_, lane| quantity.weights[lane]),
+            estimate: self.reading_of(point, |_, lane| quantity.weights[lane]),
             samples: samples.map_or(0, Replicates::total_samples),
             channels: self.channels(point, quantity),
             groups: self.shares(point, quantity),
+            exposure: self.exposure(point, quantity),
         }
+    }
+
+    /// Names of the light groups, each once.
+    pub fn group_names(&self) -> Vec<&String> {
+        let groups = self.groups.iter().enumerate();
+        let first = groups.filter(|(index, name)| !self.groups[..*index].contains(name));
+        first.map(|(_, name)| name).collect()
+    }
+
+    fn exposure(&self, point: &PointRecord, quantity: &Readout) -> Option<Exposure> {
+        self.dimming.interval()?;
+        let weight =
+            |group: usize, lane: usize| self.dimming.seconds(group) * quantity.weights[lane];
+        let estimate = self.combine(point, weight);
+        Some(Exposure::new(&quantity.name, &quantity.unit, estimate))
     }
 
     /// Each lane that has a part in the quantity.
     fn channels(&self, point: &PointRecord, quantity: &Readout) -> Vec<(String, Estimate)> {
         let lanes = self.lanes.iter().zip(&quantity.weights).enumerate();
         let channel = |wanted: usize| {
-            self.combine(point, |_, lane| {
+            self.reading_of(point, |_, lane| {
                 f64::from(u8::from(lane == wanted)) * quantity.channel_factor
             })
         };
@@ -167,15 +193,20 @@ impl Measurements {
 
     /// What each light group adds to the value.
     fn shares(&self, point: &PointRecord, quantity: &Readout) -> Vec<(String, Estimate)> {
-        let share = |wanted: usize| {
-            self.combine(point, |group, lane| {
-                f64::from(u8::from(group == wanted)) * quantity.weights[lane]
+        let share = |wanted: &String| {
+            self.reading_of(point, |group, lane| {
+                f64::from(u8::from(self.groups[group] == *wanted)) * quantity.weights[lane]
             })
         };
-        let groups = self.groups.iter().enumerate();
-        groups
-            .map(|(index, name)| (name.clone(), share(index)))
-            .collect()
+        let groups = self.group_names().into_iter();
+        groups.map(|name| (name.clone(), share(name))).collect()
+    }
+
+    /// Σ factor(group) · weight(group, lane) · column, at the moment asked for.
+    fn reading_of(&self, point: &PointRecord, weight: impl Fn(usize, usize) -> f64) -> Estimate {
+        self.combine(point, |group, lane| {
+            self.dimming.factor(group) * weight(group, lane)
+        })
     }
 
     /// Σ weight(group, lane) · column, exact and sampled parts together.
@@ -205,7 +236,9 @@ impl Measurements {
 mod tests {
     use super::*;
     use crate::estimation::Method;
+    use crate::quantity::Time;
     use crate::spectrum::Lanes;
+    use crate::time::{Interval, Rule, Schedule};
 
     /// Four replicates of 10 samples each, with the columns of two groups.
     fn replicates(columns: usize, sums: &[f64]) -> Replicates {
@@ -228,6 +261,16 @@ mod tests {
         sampled: &[f64],
         closed: Vec<bool>,
     ) -> Reading {
+        measured_while(lanes, readout, (exact, closed), sampled, Dimming::default())
+    }
+
+    fn measured_while(
+        lanes: &Lanes,
+        readout: Readout,
+        (exact, closed): (Vec<f64>, Vec<bool>),
+        sampled: &[f64],
+        dimming: Dimming,
+    ) -> Reading {
         let replicates = (!sampled.is_empty()).then(|| replicates(exact.len(), sampled));
         let point = PointRecord {
             index: 3,
@@ -247,6 +290,7 @@ mod tests {
             max_depth: None,
             lanes: names.map(|name| LaneRecord { name }).collect(),
             groups: vec!["lamps".into(), "sky".into()],
+            dimming,
             sensors: vec![SensorRecord {
                 name: "desk".into(),
                 quantities: vec![readout],
@@ -350,6 +394,57 @@ mod tests {
         assert_eq!(*lamps, Estimate::closed_form(100.0));
         assert!((sky.value - 8.15).abs() < 1e-12 && sky.std_error > 0.01);
         assert!((reading.estimate.value - 108.15).abs() < 1e-12);
+    }
+
+    /// The lamps at half for eight hours, the sky at a quarter.
+    fn eight_hours() -> Dimming {
+        let constant = |factor: f64| {
+            let points = [(Time::ZERO, factor), (Time::from_hours(8.0), factor)];
+            Schedule::new(points, Rule::Held, None).unwrap()
+        };
+        let groups = ["lamps".to_owned(), "sky".to_owned()];
+        let dimming = Dimming::new(vec![Some(constant(0.5)), Some(constant(0.25))]);
+        let day = Interval::lasting(Time::from_hours(8.0), Time::ZERO).unwrap();
+        let dimming = dimming.over(day, &groups).unwrap();
+        dimming.at(Time::from_hours(1.0), &groups).unwrap()
+    }
+
+    /// Of the lamps' 105 and the sky's 8.15: the lamps' bands cancel in every replicate, so that the error is that of the sky's
+    /// nir alone, whose means are .5, .6, .7, .8: √(.05/3/4).
+    #[test]
+    fn schedules_weigh_groups_in_every_replicate() {
+        let (lanes, closed) = (bands(), vec![false; 4]);
+        let reading = measured_while(
+            &lanes,
+            readout(&lanes, false),
+            (EXACT.to_vec(), closed),
+            &SAMPLED,
+            eight_hours(),
+        );
+        let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-5;
+        let sky_error = (0.05_f64 / 12.0).sqrt();
+        assert!(close(reading.estimate.value, 0.5 * 105.0 + 0.25 * 8.15));
+        assert!(close(reading.estimate.std_error, 0.25 * sky_error));
+        assert!(close(sum(&reading.groups), reading.estimate.value));
+        assert!(close(sum(&reading.channels), reading.estimate.value));
+        let exposure = reading.exposure.unwrap();
+        let hours = exposure.in_hours.unwrap().1;
+        assert!(close(hours.value, 4.0 * 105.0 + 2.0 * 8.15));
+        assert!(close(hours.std_error, 2.0 * sky_error));
+        assert!(close(exposure.estimate.value, 3600.0 * hours.value));
+        assert_eq!(exposure.unit, "J/m2");
+    }
+
+    #[test]
+    fn a_schedule_that_is_too_short_is_told_with_its_group() {
+        let groups = ["lamps".to_owned(), "sky".to_owned()];
+        let fault = eight_hours()
+            .at(Time::from_hours(9.0), &groups)
+            .unwrap_err();
+        assert_eq!(
+            fault.to_string(),
+            "the schedule of a light in group `lamps`: 32400 s was asked for, but the record goes from 0 s to 28800 s"
+        );
     }
 
     #[test]

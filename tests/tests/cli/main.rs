@@ -9,4 +9,5 @@ mod instruments;
 mod interruption;
 mod pictures;
 mod results;
+mod schedules;
 mod same_bytes;

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use steradian::quantity::{Amount, Angle, Flux, Illuminance, Irradiance, LuminousFlux, Quantity};
 use steradian::time::{Rate, Waveform};
 
-use super::{Arguments, Entry, failure};
+use super::{Arguments, Entry};
 use crate::status::Failure;
 
 /// What the formula adds up to.
@@ -146,9 +146,7 @@ impl<'a> Formula<'a> {
 
     fn entry<R: Rate>(&self, arguments: &Arguments) -> Result<Entry, Failure> {
         let waveform = self.waveform::<R>()?;
-        let summary = waveform
-            .summary(arguments.interval(None)?)
-            .map_err(failure)?;
+        let summary = waveform.summary(arguments.interval(None)?)?;
         let entry = Entry::new(R::NAME, &summary, arguments)?;
         Ok(match waveform.total() {
             Some(total) => entry.with_rest(total),

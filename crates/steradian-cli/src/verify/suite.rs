@@ -146,6 +146,10 @@ pub const SUITE: &[Verified] = &[
         ]
     ),
     scene!(
+        "working-day.toml",
+        &[Answer::new("desk", 0, "illuminance", 250.0)]
+    ),
+    scene!(
         "lamps-equal.toml",
         &[
             Answer::new("around all", 0, "luminous flux", 1000.0).of_group("point"),

@@ -99,6 +99,7 @@ fn lights() -> [LightDescription; 2] {
         name: Some(name.into()),
         group: None,
         spectrum: None,
+        schedule: None,
         repeat: None,
         kind,
     })

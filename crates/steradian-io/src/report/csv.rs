@@ -1,6 +1,10 @@
 //! Readings as CSV (RFC 4180) with fixed columns; what a reading does not have is empty.
+//!
+//! Where an interval was asked for, each reading is followed by a row of what it adds up to: quantity and unit say so
+//! (`radiant exposure`, `J/m2`).
 
-use steradian::measurement::Reading;
+use steradian::estimation::Estimate;
+use steradian::measurement::{Exposure, Reading};
 
 use super::error::ReportError;
 use super::run::Run;
@@ -31,6 +35,10 @@ pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
     writer.write_record(COLUMNS).map_err(failed)?;
     for reading in run.measurements.readings() {
         writer.write_record(record(&reading)).map_err(failed)?;
+        if let Some(exposure) = &reading.exposure {
+            let row = exposure_record(&reading, exposure);
+            writer.write_record(row).map_err(failed)?;
+        }
     }
     let bytes = writer
         .into_inner()
@@ -39,7 +47,24 @@ pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
 }
 
 fn record(reading: &Reading) -> [String; COLUMNS.len()] {
-    let estimate = &reading.estimate;
+    row(reading, &reading.quantity, &reading.unit, &reading.estimate)
+}
+
+fn exposure_record(reading: &Reading, exposure: &Exposure) -> [String; COLUMNS.len()] {
+    row(
+        reading,
+        &exposure.quantity,
+        &exposure.unit,
+        &exposure.estimate,
+    )
+}
+
+fn row(
+    reading: &Reading,
+    quantity: &str,
+    unit: &str,
+    estimate: &Estimate,
+) -> [String; COLUMNS.len()] {
     let [x, y, z] = vector(reading.position);
     let [nx, ny, nz] = vector(reading.normal);
     let end = |side: usize| {
@@ -56,8 +81,8 @@ fn record(reading: &Reading) -> [String; COLUMNS.len()] {
         nx,
         ny,
         nz,
-        reading.quantity.clone(),
-        reading.unit.clone(),
+        quantity.to_owned(),
+        unit.to_owned(),
         number(estimate.value),
         number(estimate.std_error),
         end(0),

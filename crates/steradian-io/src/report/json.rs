@@ -4,10 +4,14 @@
 //! group and lane the mean of every independent replicate (or the exact value), in the radiant unit of the sensor's
 //! quantity. With them lamps can be dimmed or switched afterwards: weigh and add the means of each replicate, and the
 //! spread of the sums gives their error, covariances included. What is unknown is `null`.
+//!
+//! A run that was asked for an interval states it as `over`, and in each reading as `exposure` what the reading adds up to, by
+//! seconds and, `in_hours`, by hours. `at` is the time that readings belong to; `null` means that all lights give all they can.
 
 use serde_json::{Map, Value, json};
 use steradian::estimation::Estimate;
-use steradian::measurement::{Measurements, PointRecord, Reading, SensorRecord};
+use steradian::measurement::{Exposure, Measurements, PointRecord, Reading, SensorRecord};
+use steradian::quantity::Time;
 
 use super::run::{Run, SAMPLING_ERROR_ONLY};
 
@@ -36,6 +40,11 @@ pub fn value(run: &Run<'_>) -> Value {
         "converged": measurements.converged(),
         "unsampled": measurements.unsampled,
         "warnings": measurements.warnings,
+        "at": measurements.dimming.moment().map(seconds),
+        "over": measurements.dimming.interval().map(|interval| json!({
+            "from": seconds(interval.from()),
+            "to": seconds(interval.to()),
+        })),
         "note": SAMPLING_ERROR_ONLY,
         "readings": readings.iter().map(reading).collect::<Vec<_>>(),
         "replicate_means": replicate_means(measurements),
@@ -55,7 +64,26 @@ fn reading(reading: &Reading) -> Value {
     object.insert("samples".to_owned(), json!(reading.samples));
     object.insert("channels".to_owned(), parts(&reading.channels));
     object.insert("groups".to_owned(), parts(&reading.groups));
+    if let Some(found) = &reading.exposure {
+        object.insert("exposure".to_owned(), exposure(found));
+    }
     Value::Object(object)
+}
+
+fn exposure(exposure: &Exposure) -> Value {
+    let mut object = Map::new();
+    object.insert("quantity".to_owned(), json!(exposure.quantity));
+    object.insert("unit".to_owned(), json!(exposure.unit));
+    object.extend(estimate(&exposure.estimate));
+    let in_hours = exposure.in_hours.as_ref().map(
+        |(unit, value)| json!({ "unit": unit, "value": value.value, "std_error": value.std_error }),
+    );
+    object.insert("in_hours".to_owned(), json!(in_hours));
+    Value::Object(object)
+}
+
+fn seconds(time: Time) -> Value {
+    json!({ "value": time.to_seconds(), "unit": "s" })
 }
 
 /// The keys of an estimate, for any report that has one.
@@ -93,27 +121,31 @@ fn replicate_means(measurements: &Measurements) -> Vec<Value> {
 
 fn point_means(measurements: &Measurements, sensor: &SensorRecord, point: &PointRecord) -> Value {
     let lanes = measurements.lanes.len();
-    let group = |(number, name): (usize, &String)| {
+    let group = |name: &String| {
+        let numbers = measurements.groups.iter().zip(0..);
+        let numbers: Vec<usize> = numbers
+            .filter(|(known, _)| *known == name)
+            .map(|(_, number)| number * lanes)
+            .collect();
         let lane = |at: usize| {
-            (
-                measurements.lanes[at].name.clone(),
-                column(point, number * lanes + at),
-            )
+            let columns: Vec<usize> = numbers.iter().map(|first| first + at).collect();
+            (measurements.lanes[at].name.clone(), sum(point, &columns))
         };
         (name.clone(), Value::Object((0..lanes).map(lane).collect()))
     };
-    let groups: Map<String, Value> = measurements.groups.iter().enumerate().map(group).collect();
+    let names = measurements.group_names().into_iter();
+    let groups: Map<String, Value> = names.map(group).collect();
     json!({ "sensor": sensor.name, "index": point.index, "groups": groups })
 }
 
-/// The exact value plus the mean of each replicate; one number where nothing was sampled.
-fn column(point: &PointRecord, column: usize) -> Value {
-    let exact = point.exact[column];
+/// Of the sum of some columns the exact value plus the mean of each replicate; one number where nothing was sampled.
+fn sum(point: &PointRecord, columns: &[usize]) -> Value {
+    let exact: f64 = columns.iter().map(|column| point.exact[*column]).sum();
     let Some(replicates) = &point.replicates else {
         return json!([exact]);
     };
     let mut weights = vec![0.0; replicates.columns()];
-    weights[column] = 1.0;
+    columns.iter().for_each(|column| weights[*column] = 1.0);
     replicates
         .means(&weights)
         .map(|mean| mean + exact)

@@ -5,6 +5,9 @@ use std::fmt::Write;
 use steradian::estimation::Estimate;
 use steradian::measurement::{Measurements, Reading};
 
+use steradian::quantity::Time;
+use steradian::time::Interval;
+
 use super::columns::Columns;
 use super::numbers::{estimate, exact};
 use super::run::{Run, SAMPLING_ERROR_ONLY};
@@ -19,6 +22,10 @@ pub fn encode(run: &Run<'_>) -> String {
     }
     text.push_str(&columns(run.measurements, &readings).to_string());
     text.push('\n');
+    if let Some(interval) = run.measurements.dimming.interval() {
+        text.push_str(&exposures(&readings, interval).to_string());
+        text.push('\n');
+    }
     for note in notes(run, &readings) {
         text.push_str(&note);
         text.push('\n');
@@ -30,7 +37,7 @@ fn columns(measurements: &Measurements, readings: &[Reading]) -> Columns {
     let percent = exact(100.0 * measurements.confidence);
     let parts = Parts {
         channels: readings.iter().any(|reading| reading.channels.len() > 1),
-        groups: measurements.groups.len() > 1,
+        groups: measurements.group_names().len() > 1,
     };
     let mut headings = ["sensor", "#", "at (m)", "quantity"]
         .map(str::to_owned)
@@ -43,7 +50,8 @@ fn columns(measurements: &Measurements, readings: &[Reading]) -> Columns {
             .filter(|_| parts.channels)
             .map(|lane| lane.name.clone()),
     );
-    headings.extend(measurements.groups.iter().filter(|_| parts.groups).cloned());
+    let names = measurements.group_names().into_iter();
+    headings.extend(names.filter(|_| parts.groups).cloned());
     let mut columns = Columns::new(headings).right_aligned(1);
     for reading in readings {
         columns.row(cells(measurements, reading, parts));
@@ -83,6 +91,28 @@ fn cells(measurements: &Measurements, reading: &Reading, shown: Parts) -> Vec<St
     cells
 }
 
+/// What the readings add up to over an interval.
+fn exposures(readings: &[Reading], interval: Interval) -> Columns {
+    let hours = |time: Time| exact(time.to_hours());
+    let heading = format!("{} h to {} h", hours(interval.from()), hours(interval.to()));
+    let headings = ["sensor", "#", "over time", &heading, "in hours"];
+    let mut columns = Columns::new(headings).right_aligned(1);
+    for reading in readings {
+        let Some(exposure) = &reading.exposure else {
+            continue;
+        };
+        let in_hours = exposure.in_hours.as_ref();
+        columns.row([
+            reading.sensor.clone(),
+            reading.index.to_string(),
+            exposure.quantity.clone(),
+            with_unit(&exposure.estimate, &exposure.unit),
+            in_hours.map_or_else(String::new, |(unit, value)| with_unit(value, unit)),
+        ]);
+    }
+    columns
+}
+
 /// `503.2 ± 2.2 lx`, `100 W/m2 (exact)`: the unit stands before a remark.
 fn with_unit(value: &Estimate, unit: &str) -> String {
     let text = estimate(value);
@@ -104,6 +134,7 @@ fn place(position: [f64; 3]) -> String {
 fn notes(run: &Run<'_>, readings: &[Reading]) -> Vec<String> {
     let measurements = run.measurements;
     let mut notes = vec![SAMPLING_ERROR_ONLY.to_owned(), identity(run)];
+    notes.extend(dimmed(measurements));
     let missed = readings
         .iter()
         .filter(|reading| !reading.estimate.converged)
@@ -124,6 +155,18 @@ fn notes(run: &Run<'_>, readings: &[Reading]) -> Vec<String> {
             .map(|warning| format!("Warning: {warning}")),
     );
     notes
+}
+
+/// What the readings assume of the lights' schedules.
+fn dimmed(measurements: &Measurements) -> Option<String> {
+    let dimming = &measurements.dimming;
+    match dimming.moment() {
+        Some(time) => Some(format!("Values at {} h.", exact(time.to_hours()))),
+        None => dimming.has_schedules().then(|| {
+            "Values with all lights at factor 1 of their schedules; --at gives those at a time."
+                .to_owned()
+        }),
+    }
 }
 
 /// The numbers that a repetition needs.

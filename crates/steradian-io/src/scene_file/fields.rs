@@ -56,6 +56,12 @@ impl<'a> Fields<'a> {
         })
     }
 
+    /// The value of a key that is there.
+    pub fn node(&self, name: &str) -> Option<Node<'a>> {
+        let value = self.table.get(name)?;
+        Some(Node::new(value, self.node.context))
+    }
+
     pub fn has(&self, name: &str) -> bool {
         self.table.contains_key(name)
     }

@@ -61,6 +61,8 @@ pub(super) enum Value {
     Displacement,
     /// A point and a direction in one array of six.
     PointAndDirection,
+    /// A time and a factor of at least 0.
+    TimeAndFactor,
     /// A number for each lane of a spectrum, or for each wavelength.
     Lanes,
     /// First and last wavelength.
@@ -243,6 +245,7 @@ impl Value {
             Self::Direction => "three numbers such as [0, 0, 1]".into(),
             Self::Displacement => "a vector of three lengths such as [2, 0, 0] in metres".into(),
             Self::PointAndDirection => "a point and a direction: [x, y, z, dx, dy, dz]".into(),
+            Self::TimeAndFactor => "a time and a factor, 0 or more, such as [\"8 h\", 0.5]".into(),
             Self::Lanes => {
                 "a number, \"#rrggbb\", [r, g, b], a table of bands, [[nm, value], …] or { file, column }".into()
             }

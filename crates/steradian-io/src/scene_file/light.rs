@@ -25,10 +25,12 @@ pub(super) fn read(node: Node<'_>) -> Option<LightDescription> {
     let (name, group) = (fields.get("name"), fields.get("group"));
     let (spectrum, repeat) = (fields.get("spectrum"), placement::repeat(&fields));
     let spectrum = spectrum.map(|LightSpectrum(spectrum)| spectrum);
+    let schedule = fields.get("schedule");
     Some(LightDescription {
         name,
         group,
         spectrum,
+        schedule,
         repeat,
         kind: kind?,
     })

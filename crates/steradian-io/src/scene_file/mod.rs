@@ -35,6 +35,7 @@ mod mesh;
 mod nearest;
 mod node;
 mod placement;
+mod schedule;
 mod schema;
 mod sections;
 mod sensor;

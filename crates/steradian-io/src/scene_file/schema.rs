@@ -131,6 +131,7 @@ impl Definitions {
                 self.reference("direction", |_| array(&json!({ "type": "number" }), 3))
             }
             Value::PointAndDirection => self.reference("ray", |_| ray()),
+            Value::TimeAndFactor => self.reference("time-and-factor", |_| time_and_factor()),
             Value::Lanes => {
                 let table = self.value(&Value::Table(&TABLE));
                 self.reference("lanes", |_| lanes(table))
@@ -243,6 +244,15 @@ fn ray() -> Json {
         "prefixItems": [length(), length(), length(), number, number, number],
         "items": false,
         "minItems": 6,
+    })
+}
+
+fn time_and_factor() -> Json {
+    json!({
+        "type": "array",
+        "prefixItems": [{ "type": "string" }, { "type": "number", "minimum": 0 }],
+        "items": false,
+        "minItems": 2,
     })
 }
 

@@ -212,6 +212,7 @@ impl Read for EmissionDescription {
             textures: texture.map(|pattern| pattern.0).into_iter().collect(),
             two_sided: two_sided?,
             group,
+            schedule: fields.get("schedule"),
         })
     }
 }

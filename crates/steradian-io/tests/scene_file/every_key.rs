@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde_json::Value as Json;
 use steradian::geometry::{Point, Vector};
 use steradian::quantity::{
-    Amount, Angle, Flux, Illuminance, Irradiance, Length, LuminousFlux, LuminousIntensity,
+    Amount, Angle, Flux, Illuminance, Irradiance, Length, LuminousFlux, LuminousIntensity, Time,
 };
 use steradian::scene::description::*;
 use steradian_io::scene_file::schema;
@@ -176,6 +176,8 @@ fn a_shape_and_its_emission() {
     );
     assert!(emission.two_sided);
     assert_eq!(emission.group.as_deref(), Some("desk"));
+    let schedule = emission.schedule.as_ref().unwrap();
+    assert_eq!(schedule.at(Time::from_hours(4.0)), Ok(0.75));
 }
 
 #[test]
@@ -293,6 +295,14 @@ fn meshes_come_from_files_and_from_lists() {
 fn lights() {
     let lights = everything().lights;
     let bulb = &lights[0];
+    let at = |light: usize, minutes: f64| {
+        let schedule = lights[light].schedule.as_ref().unwrap();
+        schedule.at(Time::from_seconds(60.0 * minutes))
+    };
+    // Steps that repeat, lines in a table and lines in a list.
+    assert_eq!((at(0, 69.0), at(0, 71.0)), (Ok(1.0), Ok(0.0)));
+    assert_eq!((at(2, 12.0 * 60.0), at(6, 9.0 * 60.0)), (Ok(0.5), Ok(0.5)));
+    assert!(lights[1].schedule.is_none() && at(6, 0.0).is_err());
     assert_eq!(
         (bulb.name.as_deref(), bulb.group.as_deref()),
         (Some("bulb"), Some("lamps"))

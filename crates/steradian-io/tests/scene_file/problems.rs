@@ -292,6 +292,56 @@ fn unknown_kinds_name_the_nearest() {
 }
 
 #[test]
+fn schedules() {
+    let schedule = |text: &str, at: &str, says: &str| {
+        one_problem("cutoff", &format!("schedule = {text}\ncutoff"), at, says);
+    };
+    let expected = "expected a list, each a time and a factor, 0 or more, such as [\"8 h\", 0.5]";
+    schedule("1", "1", "expected a table { linear, held, period }");
+    schedule("{ held = 1 }", "1", expected);
+    schedule(
+        "[[\"0 h\", 1], [8, 1]]",
+        "8",
+        "expected a time such as \"8 h\"",
+    );
+    schedule(
+        "[[\"0 h\", 1], [\"8 h\"]]",
+        "[\"8 h\"]",
+        "expected a time and a factor",
+    );
+    schedule(
+        "[[\"0 h\", 1], [\"8 h\", \"1\"]]",
+        "\"1\"",
+        "expected a number without a unit",
+    );
+    schedule(
+        "[[\"0 h\", 1]]",
+        "[[\"0 h\", 1]]",
+        "at least two points are needed, found 1",
+    );
+    schedule(
+        "[[\"1 h\", 1], [\"60 min\", 0]]",
+        "[\"60 min\", 0]",
+        "times must increase",
+    );
+    schedule(
+        "[[\"0 h\", 1], [\"1 h\", -1]]",
+        "[\"1 h\", -1]",
+        "a factor is not negative",
+    );
+    let short = "{ held = [[\"0 h\", 1], [\"2 h\", 0]], period = \"1 h\" }";
+    schedule(
+        short,
+        "[[\"0 h\", 1], [\"2 h\", 0]]",
+        "a period of 3600 s is too short",
+    );
+    let both = "{ held = [[\"0 h\", 1], [\"2 h\", 0]], linear = [[\"0 h\", 1], [\"2 h\", 0]] }";
+    schedule(both, "[[\"0 h\", 1], [\"2 h\", 0]]", "exclude each other");
+    let period = "{ held = [[\"0 h\", 1], [\"2 h\", 0]], period = 3 }";
+    schedule(period, "3", "which has no unit");
+}
+
+#[test]
 fn what_is_planned_is_not_unknown() {
     for (good, planned) in [
         ("\"polygon\"", "\"cylinder\""),
@@ -304,12 +354,6 @@ fn what_is_planned_is_not_unknown() {
     ] {
         one_problem(good, planned, planned, "is not supported yet");
     }
-    one_problem(
-        "cutoff",
-        "schedule = \"x\"\ncutoff",
-        "schedule",
-        "is not supported yet",
-    );
     one_problem(
         "[scene]",
         "[site]\n[scene]",

@@ -14,6 +14,7 @@ use crate::quantity::{
 };
 pub use crate::sensor::{Bins, Fisheye, FluxOf, Projection, Response};
 pub use crate::spectrum::LaneValues;
+pub use crate::time::Schedule;
 
 /// Everything a run needs to know about a scene.
 #[derive(Clone, Debug, Default)]
@@ -255,6 +256,8 @@ pub struct EmissionDescription {
     pub two_sided: bool,
     /// Light group.
     pub group: Option<String>,
+    /// How much of it there is in the course of time; `None` is always all.
+    pub schedule: Option<Schedule>,
 }
 
 /// How much a surface emits; reflected light not counted.
@@ -277,6 +280,8 @@ pub struct LightDescription {
     pub group: Option<String>,
     /// The shape of its spectrum; `None` is white.
     pub spectrum: Option<LaneValues>,
+    /// How much of it there is in the course of time; `None` is always all.
+    pub schedule: Option<Schedule>,
     /// Copies at a fixed step (not for directional lights and environments).
     pub repeat: Option<Repeat>,
     /// What it is.

@@ -14,6 +14,7 @@ use crate::quantity::{
 };
 use crate::shape::{Placed, ShapeId};
 use crate::spectrum::{CurveId, LaneCurve, Lanes, MAX_LANES};
+use crate::time::Schedule;
 
 /// A spot of a smaller half angle, in degrees, would have no solid angle left beside the rounding of its cosine.
 const NARROWEST_BEAM: f64 = 1e-4;
@@ -25,6 +26,8 @@ pub(super) struct Builder<'a> {
     curves: &'a mut Curves,
     pub lights: Vec<Light>,
     pub groups: Vec<String>,
+    /// The schedule of each group.
+    pub schedules: Vec<Option<Schedule>>,
     pub any_photometric: bool,
     pub any_radiant: bool,
 }
@@ -37,6 +40,7 @@ impl<'a> Builder<'a> {
             curves,
             lights: vec![],
             groups: vec![],
+            schedules: vec![],
             any_photometric: false,
             any_radiant: false,
         }
@@ -81,7 +85,7 @@ impl<'a> Builder<'a> {
             two_sided: emission.two_sided,
         });
         let spectrum = self.curves.number(power.curve);
-        let group = emission.group.as_deref();
+        let group = self.group(emission.group.as_deref(), emission.schedule.as_ref());
         let id = self.push(forms.names[form].clone(), group, spectrum, light);
         for part in &placed.parts {
             forms.parts[part.0 as usize].light = Some(id);
@@ -115,33 +119,35 @@ impl<'a> Builder<'a> {
         let name = own.unwrap_or_else(|| format!("light {index}"));
         let power = self.power(light)?;
         let spectrum = self.curves.number(power.curve);
+        let group = self.group(light.group.as_deref(), light.schedule.as_ref());
         for (copy, step) in steps.iter().enumerate() {
             let kind = kind(light, *step, power.lanes)?;
             let name = match light.repeat {
                 Some(_) => format!("{name}[{copy}]"),
                 None => name.clone(),
             };
-            self.push(name, light.group.as_deref(), spectrum, kind);
+            self.push(name, group, spectrum, kind);
         }
         Ok(())
     }
 
-    fn push(
-        &mut self,
-        name: String,
-        group: Option<&str>,
-        spectrum: Option<CurveId>,
-        kind: Kind,
-    ) -> LightId {
-        let group = group.unwrap_or("default");
-        let known = self.groups.iter().position(|known| known == group);
-        let group = known.unwrap_or_else(|| {
-            self.groups.push(group.into());
+    /// Number of the group of this name and schedule.
+    fn group(&mut self, name: Option<&str>, schedule: Option<&Schedule>) -> u32 {
+        let name = name.unwrap_or("default");
+        let mut known = self.groups.iter().zip(&self.schedules);
+        let number = known.position(|(known, its)| known == name && its.as_ref() == schedule);
+        let number = number.unwrap_or_else(|| {
+            self.groups.push(name.into());
+            self.schedules.push(schedule.cloned());
             self.groups.len() - 1
         });
+        number as u32
+    }
+
+    fn push(&mut self, name: String, group: u32, spectrum: Option<CurveId>, kind: Kind) -> LightId {
         self.lights.push(Light {
             name,
-            group: group as u32,
+            group,
             spectrum,
             kind,
         });

@@ -32,6 +32,7 @@ use crate::quantity::LuminousEfficacy;
 use crate::sensor::Sensor;
 use crate::shape::{ShapeId, Surfaces};
 use crate::spectrum::{Curve, CurveId, Lanes, MAX_LANES};
+use crate::time::Schedule;
 use description::{MaterialDescription, MaterialModel, SceneDescription};
 
 /// What one part of a shape is made of.
@@ -52,6 +53,7 @@ pub struct Scene {
     efficacy: f64,
     links_watts_and_lumens: bool,
     groups: Vec<String>,
+    schedules: Vec<Option<Schedule>>,
     surfaces: Surfaces,
     shape_names: Vec<String>,
     parts: Vec<PartProperties>,
@@ -121,6 +123,7 @@ impl Scene {
             links_watts_and_lumens: !lanes.is_spectral() && sensors::crosses(&sensors, &lights),
             efficacy,
             groups: lights.groups,
+            schedules: lights.schedules,
             surfaces,
             shape_names: forms.names,
             parts: forms.parts,
@@ -159,9 +162,14 @@ impl Scene {
         self.links_watts_and_lumens
     }
 
-    /// Names of the light groups.
+    /// Names of the light groups; a name stands once for each schedule that its lights have.
     pub fn groups(&self) -> &[String] {
         &self.groups
+    }
+
+    /// The schedule of each group; none where lights give all they can at all times.
+    pub fn schedules(&self) -> &[Option<Schedule>] {
+        &self.schedules
     }
 
     /// The geometry.

@@ -51,7 +51,7 @@ pub enum TimeError {
         to: f64,
     },
     /// An interval, or a moment, that is not within the record.
-    #[error("{from} s to {to} s was asked for, but the record goes from {first} s to {last} s")]
+    #[error("{} was asked for, but the record goes from {first} s to {last} s", asked(*from, *to))]
     Outside {
         /// Beginning of what was asked for.
         from: f64,
@@ -83,4 +83,13 @@ pub enum TimeError {
     /// An integral beyond the range of numbers.
     #[error("the integral is beyond the range of numbers")]
     Overflow,
+}
+
+/// A moment is an interval without duration.
+fn asked(from: f64, to: f64) -> String {
+    if from == to {
+        format!("{from} s")
+    } else {
+        format!("{from} s to {to} s")
+    }
 }

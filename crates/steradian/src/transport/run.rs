@@ -13,7 +13,7 @@ use super::tables::Tables;
 use super::unsampled::unsampled;
 use crate::estimation::film::{Exposure, Film, Filter, PASSES, expose};
 use crate::estimation::{EstimationError, Observer, Plan, Replicates, Stopping, estimate};
-use crate::measurement::{LaneRecord, Measurements, PointRecord, SensorRecord};
+use crate::measurement::{Dimming, LaneRecord, Measurements, PointRecord, SensorRecord};
 use crate::sampling::hash;
 use crate::scene::{CAMERA_CHANNELS, Scene};
 use crate::sensor::{Camera, Kind, Readout, Sensor};
@@ -340,6 +340,7 @@ fn record(
             .map(|name| LaneRecord { name: name.clone() })
             .collect(),
         groups: scene.groups().to_vec(),
+        dimming: Dimming::new(scene.schedules().to_vec()),
         sensors: sensors.collect(),
         unsampled: unsampled(scene),
         warnings: scene.warnings().to_vec(),

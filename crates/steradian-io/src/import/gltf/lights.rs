@@ -43,6 +43,7 @@ pub(super) fn read(
         name: light.name.clone(),
         group: None,
         spectrum: Some(LaneValues::Rgb(color)),
+        schedule: None,
         repeat: None,
         kind: kind(light, amount, transform, place)?,
     }))

@@ -283,6 +283,7 @@ impl Reader<'_, '_> {
             textures: self.laid(self.material.emissive_texture.as_ref())?,
             two_sided: self.material.double_sided,
             group: None,
+            schedule: None,
         }))
     }
 

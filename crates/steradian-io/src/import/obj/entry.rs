@@ -85,6 +85,7 @@ impl Entry {
             textures,
             two_sided: false,
             group: None,
+            schedule: None,
         })
     }
 }

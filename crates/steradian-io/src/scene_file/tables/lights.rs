@@ -6,6 +6,7 @@ use steradian::quantity::{
 };
 
 use super::LIGHT_SPECTRUM;
+use super::schedules::SCHEDULE_KEY;
 use super::shapes::REPEAT_KEY;
 use crate::scene_file::keys::{Family, Key, Kind, Record, Value};
 use crate::scene_file::value::Read;
@@ -108,7 +109,7 @@ pub const LIGHTS: Family = Family {
             LIGHT_SPECTRUM,
             "Shape of the spectrum; white unless given",
         ),
-        Key::not_yet("schedule"),
+        SCHEDULE_KEY,
     ],
 };
 

@@ -4,6 +4,7 @@
 //! its section.
 
 mod lights;
+mod schedules;
 mod sensors;
 mod shapes;
 mod textures;
@@ -17,6 +18,7 @@ use super::up::UpAxis;
 use super::value::Read;
 
 pub use lights::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
+pub use schedules::{SCHEDULE, SCHEDULE_TABLE};
 pub use sensors::{GRID, PROJECTION_NAMES, SENSORS};
 pub use shapes::{
     EMISSION, FACE_NAMES, FACES, OPENING, PORT, REPEAT, SCALE, SHAPES, SURFACES, TRANSFORM_STEP,

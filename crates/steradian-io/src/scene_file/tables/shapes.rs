@@ -4,6 +4,7 @@ use steradian::quantity::{
     Amount, Angle, Exitance, Flux, Length, Luminance, LuminousExitance, LuminousFlux, Radiance,
 };
 
+use super::schedules::SCHEDULE_KEY;
 use super::{EDGES, EMISSION_PATTERN, LIGHT_SPECTRUM, MATERIAL, POINTS};
 use crate::scene_file::keys::{Family, Key, Kind, Record, Value};
 use crate::scene_file::up::UpAxis;
@@ -291,5 +292,6 @@ pub const EMISSION: Record = Record {
             Value::Text,
             "The light group whose share is reported apart",
         ),
+        SCHEDULE_KEY,
     ],
 };

@@ -2,8 +2,10 @@ use std::f64::consts::PI;
 
 use super::*;
 use crate::material::Model;
+use crate::quantity::Time;
 use crate::sensor::{Kind as Sensing, Receiver};
 use crate::shape::Form;
+use crate::time::Rule;
 
 fn mesh_of(form: &Form) -> &crate::shape::TriangleMesh {
     match form {
@@ -195,6 +197,29 @@ fn copies_of_lights_are_lights_of_their_own() {
         (scene.groups(), scene.columns()),
         (&["row".to_string()][..], 1)
     );
+}
+
+#[test]
+fn lights_of_a_group_with_other_schedules_are_kept_apart() {
+    let schedule = |factor: f64| {
+        let points = [(Time::ZERO, factor), (Time::from_hours(8.0), factor)];
+        Schedule::new(points, Rule::Linear, None).ok()
+    };
+    let mut description = valid();
+    let lamp = description.lights[0].clone();
+    let schedules = [None, schedule(0.5), schedule(0.25), schedule(0.5)];
+    description.lights = schedules
+        .clone()
+        .map(|schedule| LightDescription {
+            schedule,
+            ..lamp.clone()
+        })
+        .to_vec();
+    let scene = scene(&description);
+    let groups: Vec<u32> = scene.lights().iter().map(|light| light.group).collect();
+    assert_eq!(groups, [0, 1, 2, 1]);
+    assert_eq!(scene.groups(), ["default"; 3]);
+    assert_eq!(scene.schedules(), &schedules[..3]);
 }
 
 #[test]

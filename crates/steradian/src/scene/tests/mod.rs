@@ -90,6 +90,7 @@ fn light(kind: LightKind) -> LightDescription {
         name: None,
         group: None,
         spectrum: None,
+        schedule: None,
         repeat: None,
         kind,
     }

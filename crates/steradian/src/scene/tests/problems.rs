@@ -411,6 +411,7 @@ fn a_plane_has_no_total_flux() {
             textures: vec![],
             two_sided: false,
             group: None,
+            schedule: None,
         }),
         name: Some("ground".into()),
         ..shape(ground, None)
@@ -731,6 +732,7 @@ fn light_needs_a_band_that_carries_it() {
         textures: vec![],
         two_sided: false,
         group: None,
+        schedule: None,
     });
     let found = problems(&description);
     assert_eq!(
@@ -776,6 +778,7 @@ fn a_radiant_light_needs_its_share_of_each_band() {
         textures: vec![],
         two_sided: false,
         group: None,
+        schedule: None,
     });
     let found = problems(&description);
     assert!(

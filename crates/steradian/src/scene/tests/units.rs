@@ -18,6 +18,7 @@ fn emitting(amount: EmissionAmount, two_sided: bool) -> SceneDescription {
         textures: vec![],
         two_sided,
         group: Some("panel".into()),
+        schedule: None,
     });
     description
 }

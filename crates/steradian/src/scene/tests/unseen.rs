@@ -27,6 +27,7 @@ fn panel(side: f64, at: [f64; 3]) -> ShapeDescription {
             textures: vec![],
             two_sided: false,
             group: None,
+            schedule: None,
         }),
         ..shape(square(side), None)
     }

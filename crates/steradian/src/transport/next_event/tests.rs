@@ -24,6 +24,7 @@ fn shape(geometry: GeometryDescription) -> ShapeDescription {
         textures: vec![],
         two_sided: false,
         group: None,
+        schedule: None,
     };
     let transform = Transform::IDENTITY;
     ShapeDescription {
@@ -41,6 +42,7 @@ fn light(kind: LightKind) -> LightDescription {
         name: None,
         group: None,
         spectrum: None,
+        schedule: None,
         repeat: None,
         kind,
     }

@@ -33,6 +33,7 @@ fn floor(material: MaterialModel) -> Scene {
         name: None,
         group: None,
         spectrum: None,
+        schedule: None,
         repeat: None,
         kind: LightKind::Point {
             position: Point::new(0.0, 0.0, 2.0),
