@@ -18,6 +18,7 @@
 //!
 //! | surfaces | where |
 //! |---|---|
+//! | polygons, discs and spheres, each with each | [`between`] |
 //! | two polygons | [`between_polygons`] |
 //! | rectangles: parallel, perpendicular, with a common edge | [`between_parallel_rectangles`], [`between_perpendicular_rectangles`], [`between_hinged_rectangles`] |
 //! | coaxial discs | [`between_coaxial_discs`] |
@@ -27,6 +28,7 @@
 //!
 //! "Howell's catalogue" is J. R. Howell, *A Catalog of Radiation Heat Transfer Configuration Factors*, with its numbers.
 
+mod cubature;
 mod cylinders;
 mod dimensions;
 mod discs;
@@ -34,6 +36,7 @@ mod polygons;
 mod rectangles;
 mod spheres;
 mod strips;
+mod surfaces;
 
 pub use cylinders::{ClosedCylinder, ConcentricCylinders, between_parallel_cylinders};
 pub use dimensions::DimensionError;
@@ -47,3 +50,4 @@ pub use spheres::{
     from_sphere_to_plane_surface, of_cap_to_itself,
 };
 pub use strips::{between_parallel_strips, between_strips, between_wedge_sides};
+pub use surfaces::{Factor, Surface, between};
