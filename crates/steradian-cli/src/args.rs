@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::{area, direction, energy, help, inspect, measure, merge, render, verify};
+use crate::{area, direction, energy, form_factor, help, inspect, measure, merge, render, verify};
 
 /// Light in SI units: radiance, irradiance and flux in a scene, each number with its unit and an error bar.
 ///
@@ -42,6 +42,8 @@ pub enum Command {
     Merge(merge::Arguments),
     /// Area of a shape, in closed form and by quadrature
     Area(area::Arguments),
+    /// Form factor between two surfaces, or from an element to a surface
+    FormFactor(Box<form_factor::Arguments>),
     /// Convert a direction between angles and a vector
     Direction(direction::Arguments),
     /// Integrate a flux over time, or turn the readings of an energy meter into fluxes

@@ -5,6 +5,7 @@ mod args;
 mod direction;
 mod energy;
 mod engine;
+mod form_factor;
 mod help;
 mod inspect;
 mod interrupt;
@@ -43,6 +44,7 @@ fn run(command: Command) -> Result<Outcome, Failure> {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Area(arguments) => area::run(&arguments),
+        Command::FormFactor(arguments) => form_factor::run(&arguments),
         Command::Direction(arguments) => direction::run(&arguments),
         Command::Energy(arguments) => energy::run(&arguments),
         Command::Help(arguments) => help::run(&arguments),

@@ -3,6 +3,7 @@
 
 mod energy;
 mod errors;
+mod form_factor;
 mod help;
 mod inspect;
 mod instruments;
