@@ -27,20 +27,22 @@ const LARGEST_CANCELLATION: f64 = 64.0;
 /// Edges whose directions differ by less than this many rad are parallel.
 const PARALLEL: f64 = 1e-14;
 
-/// `None` where the closed form loses too many digits.
-pub(super) fn over_edges(a: &Edge, b: &Edge) -> Option<f64> {
-    let cos = a.direction.dot(b.direction);
-    let sin = a.direction.cross(b.direction).length();
-    if sin > PARALLEL {
-        over_skew_edges(a, b, Angle::new(sin, cos))
-    } else if cos > 0.0 {
-        over_parallel_edges(a, b)
+/// `None` for edges that are not parallel, and where the closed form loses too many digits.
+pub(super) fn over_parallel_edges(a: &Edge, b: &Edge) -> Option<f64> {
+    if sine(a, b) > PARALLEL {
+        None
+    } else if a.direction.dot(b.direction) > 0.0 {
+        over_edges_along_each_other(a, b)
     } else {
-        over_parallel_edges(a, &b.reversed())
+        over_edges_along_each_other(a, &b.reversed())
     }
 }
 
-fn over_parallel_edges(a: &Edge, b: &Edge) -> Option<f64> {
+fn sine(a: &Edge, b: &Edge) -> f64 {
+    a.direction.cross(b.direction).length()
+}
+
+fn over_edges_along_each_other(a: &Edge, b: &Edge) -> Option<f64> {
     let offset = a.middle() - b.middle();
     let along = offset.dot(b.direction);
     let distance = offset.cross(b.direction).length();
@@ -62,7 +64,10 @@ fn twice_integrated_logarithm(x: f64, d: f64) -> f64 {
     0.25 * (x * x - d * d) * libm::log(square) + x * d * libm::atan2(x, d) - 0.75 * x * x
 }
 
-fn over_skew_edges(a: &Edge, b: &Edge, angle: Angle) -> Option<f64> {
+/// `None` for parallel edges, and where the closed form loses too many digits.
+pub(super) fn over_skew_edges(a: &Edge, b: &Edge) -> Option<f64> {
+    let sin = sine(a, b);
+    let angle = (sin > PARALLEL).then(|| Angle::new(sin, a.direction.dot(b.direction)))?;
     let lines = Lines::new(a, b, angle)?;
     let ([s1, s2], [t1, t2]) = (lines.s, lines.t);
     let boundary = s2 * along(b, a.end) - s1 * along(b, a.start) + t2 * along(a, b.end)

@@ -2,9 +2,10 @@
 //!
 //! | edges | way |
 //! |---|---|
+//! | parallel | the closed form |
 //! | some lengths apart | a product of two Gauss rules |
-//! | near, where nothing cancels | the closed form |
-//! | else: nearly parallel, or far off in comparison with the shorter | the closed form along the longer edge, graded Gauss rules along the other |
+//! | skew | the closed form |
+//! | else, where a closed form would lose digits: nearly parallel, or far off in comparison with the shorter | the closed form along the longer edge, graded Gauss rules along the other |
 
 use super::closed_forms;
 use super::outline::Edge;
@@ -16,8 +17,9 @@ const TOLERANCE: f64 = f64::EPSILON / 4.0;
 
 /// ∫ ∫ ln |x − y| ds dt over the edges a ∋ x and b ∋ y.
 pub(super) fn over_edges(a: &Edge, b: &Edge) -> f64 {
-    far_apart(a, b)
-        .or_else(|| closed_forms::over_edges(a, b))
+    closed_forms::over_parallel_edges(a, b)
+        .or_else(|| far_apart(a, b))
+        .or_else(|| closed_forms::over_skew_edges(a, b))
         .unwrap_or_else(|| {
             if a.length < b.length {
                 graded(a, b)
