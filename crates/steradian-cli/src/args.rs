@@ -2,7 +2,10 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::{area, direction, energy, form_factor, help, inspect, measure, merge, render, verify};
+use crate::{
+    area, direction, energy, form_factor, help, inspect, measure, merge, render, solid_angle,
+    verify,
+};
 
 /// Light in SI units: radiance, irradiance and flux in a scene, each number with its unit and an error bar.
 ///
@@ -44,6 +47,8 @@ pub enum Command {
     Area(area::Arguments),
     /// Form factor between two surfaces, or from an element to a surface
     FormFactor(Box<form_factor::Arguments>),
+    /// Solid angle of an object seen from a point, in closed form
+    SolidAngle(Box<solid_angle::Arguments>),
     /// Convert a direction between angles and a vector
     Direction(direction::Arguments),
     /// Integrate a flux over time, or turn the readings of an energy meter into fluxes

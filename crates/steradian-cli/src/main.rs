@@ -19,6 +19,7 @@ mod points;
 mod progress;
 mod render;
 mod result;
+mod solid_angle;
 mod status;
 mod tolerance;
 mod values;
@@ -45,6 +46,7 @@ fn run(command: Command) -> Result<Outcome, Failure> {
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Area(arguments) => area::run(&arguments),
         Command::FormFactor(arguments) => form_factor::run(&arguments),
+        Command::SolidAngle(arguments) => solid_angle::run(&arguments),
         Command::Direction(arguments) => direction::run(&arguments),
         Command::Energy(arguments) => energy::run(&arguments),
         Command::Help(arguments) => help::run(&arguments),

@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use steradian::quantity::Time;
+use steradian::geometry::{Direction, Point, Vector};
+use steradian::quantity::{Angle, Time};
 
 /// `1%` or `0.01`.
 pub fn ratio(text: &str) -> Result<f64, String> {
@@ -57,6 +58,21 @@ pub fn resolution(text: &str) -> Result<[u32; 2], String> {
 
 /// `x,y,z`.
 pub fn vector(text: &str) -> Result<[f64; 3], String> {
+    numbers(text).map_err(|_| "expected three numbers such as 0,0,1".to_owned())
+}
+
+/// `x,y,z` as a place.
+pub fn point(text: &str) -> Result<Point, String> {
+    vector(text).map(Point::from)
+}
+
+/// `x,y,z` of any length as a direction.
+pub fn direction(text: &str) -> Result<Direction, String> {
+    Direction::new(Vector::from(vector(text)?)).map_err(|error| error.to_string())
+}
+
+/// Finite numbers, so many of them: `0,0,2,1`.
+pub fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let numbers: Result<Vec<f64>, _> = text
         .split(',')
         .map(|part| part.trim().parse::<f64>())
@@ -65,8 +81,35 @@ pub fn vector(text: &str) -> Result<[f64; 3], String> {
         .ok()
         .filter(|numbers| numbers.iter().all(|number| number.is_finite()));
     numbers
-        .and_then(|numbers| <[f64; 3]>::try_from(numbers).ok())
-        .ok_or_else(|| "expected three numbers such as 0,0,1".to_owned())
+        .and_then(|numbers| <[f64; N]>::try_from(numbers).ok())
+        .ok_or_else(|| format!("expected {N} numbers with commas between them"))
+}
+
+/// Places in a row.
+#[derive(Clone, Debug)]
+pub struct Points(pub Vec<Point>);
+
+/// `x,y,z x,y,z …`.
+pub fn points(text: &str) -> Result<Points, String> {
+    let points: Result<Vec<Point>, String> = text.split_whitespace().map(point).collect();
+    points.map(Points)
+}
+
+/// `0:90deg`: two angles; the first has the unit of the second if it has none.
+pub fn angles(text: &str) -> Result<[Angle; 2], String> {
+    let (from, to) = text
+        .split_once(':')
+        .ok_or("expected two angles such as 0:90deg")?;
+    let unit = to
+        .trim()
+        .trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
+    let from = if from.trim().parse::<f64>().is_ok() {
+        format!("{from}{unit}")
+    } else {
+        from.to_owned()
+    };
+    let angle = |text: &str| text.parse::<Angle>().map_err(|error| error.to_string());
+    Ok([angle(&from)?, angle(to)?])
 }
 
 #[cfg(test)]
@@ -82,6 +125,16 @@ mod tests {
         assert_eq!(shard("2/3"), Ok((2, 3)));
         assert_eq!(resolution("640x480"), Ok([640, 480]));
         assert_eq!(vector("0, -1,2.5"), Ok([0.0, -1.0, 2.5]));
+        assert_eq!(numbers("1, -2"), Ok([1.0, -2.0]));
+        assert_eq!(
+            points("0,0,1  2,3,4").unwrap().0,
+            [Point::new(0.0, 0.0, 1.0), Point::new(2.0, 3.0, 4.0)]
+        );
+        let right = [Angle::ZERO, Angle::QUARTER_TURN];
+        assert_eq!(
+            [angles("0:90deg"), angles("0 deg:90 deg")],
+            [Ok(right), Ok(right)]
+        );
     }
 
     #[test]
@@ -99,6 +152,10 @@ mod tests {
             resolution("0x5").unwrap_err(),
             vector("1,2").unwrap_err(),
             vector("1,2,inf").unwrap_err(),
+            numbers::<2>("1,2,3").unwrap_err(),
+            points("0,0,1 2,3").unwrap_err(),
+            angles("90deg").unwrap_err(),
+            angles("0:90").unwrap_err(),
         ] {
             assert!(error.contains("expected"), "{error}");
         }

@@ -12,3 +12,4 @@ mod pictures;
 mod results;
 mod schedules;
 mod same_bytes;
+mod solid_angle;
