@@ -12,7 +12,7 @@ use steradian::transport::Picture;
 use steradian_io::diagnostic::render;
 use steradian_io::files::MemoryFiles;
 use steradian_io::import::image::Encoding;
-use steradian_io::import::{MeshFile, gltf, image, obj, ply, points, spectrum, stl};
+use steradian_io::import::{MeshFile, gltf, image, obj, ply, points, series, spectrum, stl};
 use steradian_io::report::Shard;
 use steradian_io::scene_file::read_scene_str;
 
@@ -20,7 +20,7 @@ use steradian_io::scene_file::read_scene_str;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target.
-pub const TARGETS: [Target; 11] = [
+pub const TARGETS: [Target; 12] = [
     ("scene_file", scene_file),
     ("obj", obj),
     ("mtl", mtl),
@@ -31,6 +31,7 @@ pub const TARGETS: [Target; 11] = [
     ("image", image),
     ("spectrum_csv", spectrum_csv),
     ("points", points),
+    ("series", series),
     ("shard", shard),
 ];
 
@@ -127,6 +128,24 @@ pub fn points(bytes: &[u8]) {
     let files = MemoryFiles::default().with("a.csv", bytes);
     match points::read_points(Path::new("a.csv"), &files) {
         Ok(points) => assert!(!points.is_empty()),
+        Err(problems) => assert!(!render(&problems, false).is_empty()),
+    }
+}
+
+/// Records in time.
+pub fn series(bytes: &[u8]) {
+    let files = MemoryFiles::default().with("a.csv", bytes);
+    match series::read_series(Path::new("a.csv"), &series::RATES, &files) {
+        Ok(record) => {
+            let times = record.times.len();
+            assert!(times >= 2 && !record.columns.is_empty());
+            assert!(
+                record
+                    .columns
+                    .iter()
+                    .all(|column| column.values.len() == times)
+            );
+        }
         Err(problems) => assert!(!render(&problems, false).is_empty()),
     }
 }

@@ -32,6 +32,15 @@ fn with_unit(case: &Case, key: &str, unit: &str) -> String {
     format!("{:?}{unit}", case.number(key))
 }
 
+/// The kinds of cases that `energy` answers.
+const ANSWERED: [&str; 5] = [
+    "piecewise_linear_flux",
+    "step_flux",
+    "sinusoidal_flux",
+    "exponential_decay",
+    "photon_count",
+];
+
 /// What a command says to each number that a case expects; none for a kind that another test runs, or that is skipped.
 fn answers(case: &Case) -> Option<Vec<(&'static str, f64)>> {
     let folder = Folder::new();
@@ -95,6 +104,7 @@ fn records_and_formulas_agree_with_the_table() {
     let mut count = 0;
     for case in time_table() {
         let Some(answers) = answers(&case) else {
+            assert!(!ANSWERED.contains(&case.kind()), "{}", case.id);
             continue;
         };
         assert_eq!(answers.len(), case.expect.len(), "{}", case.id);
@@ -124,7 +134,10 @@ fn every_skip_in_time_is_listed_and_counted() {
         );
         skipped += skip.count;
     }
-    let answered = cases.iter().filter(|case| answers(case).is_some()).count();
+    let answered = cases
+        .iter()
+        .filter(|case| ANSWERED.contains(&case.kind()))
+        .count();
     let doses = cases
         .iter()
         .filter(|case| case.kind() == "sensor_dose_duty_cycle");

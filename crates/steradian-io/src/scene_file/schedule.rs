@@ -37,6 +37,10 @@ impl Read for Schedule {
         if node.toml.is_array() {
             return build(node, Vec::read(node)?, Rule::Linear, None);
         }
+        if !node.toml.is_table() {
+            node.expected(&Self::VALUE.describe());
+            return None;
+        }
         let fields = node.record(&SCHEDULE_TABLE)?;
         let period = fields.get("period");
         if period.is_none() && fields.has("period") {

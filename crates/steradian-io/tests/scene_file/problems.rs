@@ -297,7 +297,8 @@ fn schedules() {
         one_problem("cutoff", &format!("schedule = {text}\ncutoff"), at, says);
     };
     let expected = "expected a list, each a time and a factor, 0 or more, such as [\"8 h\", 0.5]";
-    schedule("1", "1", "expected a table { linear, held, period }");
+    schedule("1", "1", expected);
+    schedule("1", "1", "or a table { linear, held, period }");
     schedule("{ held = 1 }", "1", expected);
     schedule(
         "[[\"0 h\", 1], [8, 1]]",
