@@ -8,23 +8,47 @@
 //! Li₂(z) = π²/6 − ln z ln(1 − z) − Li₂(1 − z) (ibid., eq. 1.11). In both cases |u| ≤ π/3, and eleven terms leave an error
 //! below 2⁻⁵³.
 
-/// Im Li₂(e^(−x+iθ)) for x ≥ 0 and 0 < θ < π, by the angle, its sine and cosine, x and e⁻ˣ.
-pub(crate) fn imaginary_part(angle: &Angle, x: f64, decay: f64) -> f64 {
-    let &Angle {
-        theta,
-        sin,
-        cos,
-        twice_sin_square_of_half,
-    } = angle;
-    let rest = 1.0 - decay;
-    let real = rest + decay * twice_sin_square_of_half; // Re(1 − z), without cancellation
-    let imaginary = decay * sin; // −Im(1 − z)
-    let phase = libm::atan2(imaginary, real);
-    let logarithm = 0.5 * libm::log(real * real + imaginary * imaginary);
-    if decay * cos <= 0.5 {
-        imaginary_part_of_series(-logarithm, phase)
-    } else {
-        -x * phase - theta * logarithm - imaginary_part_of_series(x, -theta)
+/// Im Li₂(e^(−x+iθ)) for some x ≥ 0, each with e⁻ˣ, and an angle 0 < θ < π.
+pub(crate) fn imaginary_parts<const N: usize>(angle: &Angle, points: [[f64; 2]; N]) -> [f64; N] {
+    let terms = points.map(|[x, decay]| Term::new(angle, x, decay));
+    let series = imaginary_parts_of_series(terms.map(|term| term.u));
+    std::array::from_fn(|k| terms[k].shift + terms[k].sign * series[k])
+}
+
+/// Im Li₂(z) as a shift and, with a sign, the imaginary part of the series at u.
+#[derive(Clone, Copy)]
+struct Term {
+    u: [f64; 2],
+    sign: f64,
+    shift: f64,
+}
+
+impl Term {
+    fn new(angle: &Angle, x: f64, decay: f64) -> Self {
+        let &Angle {
+            theta,
+            sin,
+            cos,
+            twice_sin_square_of_half,
+        } = angle;
+        // Re(1 − z), without cancellation, and −Im(1 − z).
+        let real = 1.0 - decay + decay * twice_sin_square_of_half;
+        let imaginary = decay * sin;
+        let phase = libm::atan2(imaginary, real);
+        let logarithm = 0.5 * libm::log(real * real + imaginary * imaginary);
+        if decay * cos <= 0.5 {
+            Self {
+                u: [-logarithm, phase],
+                sign: 1.0,
+                shift: 0.0,
+            }
+        } else {
+            Self {
+                u: [x, -theta],
+                sign: -1.0,
+                shift: -x * phase - theta * logarithm,
+            }
+        }
     }
 }
 
@@ -74,16 +98,21 @@ const COEFFICIENTS: [f64; 11] = [
     2.395_218_621_026_187e-19,
 ];
 
-/// Im(u − u²/4 + Σ B₂ₘ u²ᵐ⁺¹/(2m + 1)!) of u = re + i im.
-fn imaginary_part_of_series(re: f64, im: f64) -> f64 {
-    let (square_re, square_im) = (re * re - im * im, 2.0 * re * im);
-    let (mut sum_re, mut sum_im) = (0.0, 0.0);
+/// Im(u − u²/4 + Σ B₂ₘ u²ᵐ⁺¹/(2m + 1)!) of each u = re + i im; several at a time, because each step waits for the one before.
+fn imaginary_parts_of_series<const N: usize>(points: [[f64; 2]; N]) -> [f64; N] {
+    let squares = points.map(|[re, im]| [re * re - im * im, 2.0 * re * im]);
+    let mut sums = [[0.0; 2]; N];
     for coefficient in COEFFICIENTS.iter().rev() {
-        let shifted = sum_re + coefficient;
-        sum_re = shifted * square_re - sum_im * square_im;
-        sum_im = shifted * square_im + sum_im * square_re;
+        for k in 0..N {
+            let ([sum_re, sum_im], [re, im]) = (sums[k], squares[k]);
+            let shifted = sum_re + coefficient;
+            sums[k] = [shifted * re - sum_im * im, shifted * im + sum_im * re];
+        }
     }
-    im + im * sum_re + re * sum_im - 0.25 * square_im
+    std::array::from_fn(|k| {
+        let ([re, im], [sum_re, sum_im]) = (points[k], sums[k]);
+        im + im * sum_re + re * sum_im - 0.25 * squares[k][1]
+    })
 }
 
 #[cfg(test)]
@@ -95,11 +124,8 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
     fn at(theta: f64, x: f64) -> f64 {
-        imaginary_part(
-            &Angle::new(libm::sin(theta), libm::cos(theta)),
-            x,
-            libm::exp(-x),
-        )
+        let angle = Angle::new(libm::sin(theta), libm::cos(theta));
+        imaginary_parts(&angle, [[x, libm::exp(-x)]])[0]
     }
 
     #[test]

@@ -115,19 +115,17 @@ impl Lines {
             self.s.map(|s| Stretched::new(s * stretch)),
             self.t.map(|t| Stretched::new(t * stretch)),
         );
-        let (angle, supplement) = (self.angle, self.angle.supplement());
-        let difference = |v: &Stretched, w: &Stretched| v.minus(w).potential(&angle);
-        let sum = |v: &Stretched, w: &Stretched| v.plus(w).potential(&supplement);
-        let total = sum(&v2, &w2) - sum(&v1, &w2) - sum(&v2, &w1) + sum(&v1, &w1)
-            - difference(&v2, &w2)
-            + difference(&v1, &w2)
-            + difference(&v2, &w1)
-            - difference(&v1, &w1);
+        let corners = [(&v2, &w2), (&v1, &w2), (&v2, &w1), (&v1, &w1)];
+        let sums = potentials(&self.angle.supplement(), corners.map(|(v, w)| v.plus(w)));
+        let differences = potentials(&self.angle, corners.map(|(v, w)| v.minus(w)));
+        let signed = |k: usize| sums[k] - differences[k];
+        let total = signed(0) - signed(1) - signed(2) + signed(3);
         0.5 * self.distance * self.distance / self.angle.sin * total
     }
 }
 
 /// A number x with e^|x|.
+#[derive(Clone, Copy)]
 struct Stretched {
     x: f64,
     growth: f64,
@@ -165,11 +163,13 @@ impl Stretched {
             growth: other.growth,
         })
     }
+}
 
-    /// P(x; θ) = (π − θ)|x| + 2 Im Li₂(e^(−|x|+iθ)).
-    fn potential(&self, angle: &Angle) -> f64 {
-        let x = self.x.abs();
-        (std::f64::consts::PI - angle.theta) * x
-            + 2.0 * dilogarithm::imaginary_part(angle, x, 1.0 / self.growth)
-    }
+/// P(x; θ) = (π − θ)|x| + 2 Im Li₂(e^(−|x|+iθ)).
+fn potentials<const N: usize>(angle: &Angle, points: [Stretched; N]) -> [f64; N] {
+    let sizes = points.map(|point| [point.x.abs(), 1.0 / point.growth]);
+    let imaginary_parts = dilogarithm::imaginary_parts(angle, sizes);
+    std::array::from_fn(|k| {
+        (std::f64::consts::PI - angle.theta) * sizes[k][0] + 2.0 * imaginary_parts[k]
+    })
 }
