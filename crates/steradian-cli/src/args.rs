@@ -45,7 +45,7 @@ pub enum Command {
     Merge(merge::Arguments),
     /// Area of a shape, in closed form and by quadrature
     Area(area::Arguments),
-    /// Form factor between two surfaces, or from an element to a surface
+    /// Form factors (view factors): between two surfaces, from an element, or of a whole scene with obstacles
     FormFactor(Box<form_factor::Arguments>),
     /// Solid angle of an object seen from a point, in closed form
     SolidAngle(Box<solid_angle::Arguments>),

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use steradian::scene::Scene;
 use steradian::scene::description::SceneDescription;
+use steradian::scene::{Problem, Scene};
 use steradian_io::files::DiskFiles;
 use steradian_io::scene_file::{LoadedScene, read_scene};
 
@@ -32,9 +32,21 @@ pub fn scene_with(
     validated(file)
 }
 
+/// Reads the shapes and materials of a scene, whether or not it has lights and sensors.
+pub fn surfaces(path: &Path) -> Result<Loaded, Failure> {
+    let mut file = read_scene(path, &DiskFiles::default()).map_err(Failure::Input)?;
+    file.description.lights.clear();
+    file.description.sensors.clear();
+    checked(Scene::of_surfaces(&file.description), file)
+}
+
 /// Validates a scene that was read.
 pub fn validated(file: LoadedScene) -> Result<Loaded, Failure> {
-    match Scene::new(&file.description) {
+    checked(Scene::new(&file.description), file)
+}
+
+fn checked(scene: Result<Scene, Vec<Problem>>, file: LoadedScene) -> Result<Loaded, Failure> {
+    match scene {
         Ok(scene) => Ok(Loaded {
             scene,
             hash: file.hash,

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use steradian::estimation::EstimationError;
+use steradian::exchange::ExchangeError;
 use steradian::measurement::ScheduleError;
 use steradian::time::TimeError;
 use steradian::transport::SimulationError;
@@ -62,6 +63,12 @@ impl From<ReportError> for Failure {
 
 impl From<EstimationError> for Failure {
     fn from(error: EstimationError) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+impl From<ExchangeError> for Failure {
+    fn from(error: ExchangeError) -> Self {
         Self::Other(error.into())
     }
 }

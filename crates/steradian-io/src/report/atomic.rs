@@ -7,26 +7,78 @@ use std::path::{Path, PathBuf};
 
 use super::error::ReportError;
 
+/// A file that is written piece by piece and appears when it is finished. Dropped before, it leaves nothing.
+#[derive(Debug)]
+pub struct AtomicFile {
+    path: PathBuf,
+    partial: PathBuf,
+    file: fs::File,
+    finished: bool,
+}
+
+impl AtomicFile {
+    /// Begins to write under a temporary name in the same folder.
+    ///
+    /// # Errors
+    /// If the system refuses.
+    pub fn create(path: &Path) -> Result<Self, ReportError> {
+        let partial = partial_name(path);
+        let file = fs::File::create(&partial).map_err(|source| failure(path, source))?;
+        Ok(Self {
+            path: path.to_owned(),
+            partial,
+            file,
+            finished: false,
+        })
+    }
+
+    /// Appends.
+    ///
+    /// # Errors
+    /// If the system refuses.
+    pub fn write(&mut self, bytes: &[u8]) -> Result<(), ReportError> {
+        self.file
+            .write_all(bytes)
+            .map_err(|source| failure(&self.path, source))
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// If the system refuses; an older file of that name is untouched then.
+    pub fn finish(mut self) -> Result<(), ReportError> {
+        let synced = self.file.sync_all();
+        synced
+            .and_then(|()| fs::rename(&self.partial, &self.path))
+            .map_err(|source| failure(&self.path, source))?;
+        self.finished = true;
+        Ok(())
+    }
+}
+
+impl Drop for AtomicFile {
+    fn drop(&mut self) {
+        if !self.finished {
+            // The first error is the one to tell.
+            let _ = fs::remove_file(&self.partial);
+        }
+    }
+}
+
 /// Writes `bytes` to a temporary name in the same folder and renames it to `path`.
 ///
 /// On any error the temporary file is removed and an older file at `path` is untouched.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
-    let partial = partial_name(path);
-    let written = write_through(&partial, bytes).and_then(|()| fs::rename(&partial, path));
-    written.map_err(|source| {
-        // The temporary file may not exist; the first error is the one to tell.
-        let _ = fs::remove_file(&partial);
-        ReportError::Write {
-            path: path.to_owned(),
-            source,
-        }
-    })
+    let mut file = AtomicFile::create(path)?;
+    file.write(bytes)?;
+    file.finish()
 }
 
-fn write_through(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = fs::File::create(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
+fn failure(path: &Path, source: std::io::Error) -> ReportError {
+    ReportError::Write {
+        path: path.to_owned(),
+        source,
+    }
 }
 
 /// `folder/name.ext` becomes `folder/.name.ext.1234.part`, 1234 being the process.

@@ -5,7 +5,8 @@
 //!
 //! n = n_pilot · max(1, (1.4 h/(ε max(F, floor)))^(1/s))
 //!
-//! samples a replicate, rounded up to a power of 2, which nets like best; and, if that misses, one more run, afresh, with twice as many.
+//! samples a replicate, rounded up to a power of 2, which nets like best; and, as long as that misses, a run afresh
+//! with twice as many.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -83,7 +84,8 @@ impl Rule {
         mut attempt: impl FnMut(&Attempt) -> Found<T>,
     ) -> (T, u64, bool) {
         let mut run = |phase: Phase, samples: u32| {
-            let key = combine(combine(self.seed, identity), phase.key());
+            let run = combine(phase.key(), u64::from(samples));
+            let key = combine(combine(self.seed, identity), run);
             attempt(&Attempt { key, samples })
         };
         let total = |samples: u32| u64::from(samples) * u64::from(self.replicates);
@@ -93,15 +95,15 @@ impl Rule {
         let pilot = pilot.min(self.longest);
         let trial = run(Phase::Pilot, pilot);
         let growth = libm::pow(SAFETY * trial.excess, 1.0 / trial.order).max(1.0);
-        let samples = self.length(f64::from(pilot) * growth);
-        let found = run(Phase::Final, samples);
-        let spent = total(pilot) + total(samples);
-        if found.excess <= 1.0 || samples == self.longest {
-            return (found.value, spent, found.excess <= 1.0);
+        let mut samples = self.length(f64::from(pilot) * growth);
+        let mut found = run(Phase::Final, samples);
+        let mut spent = total(pilot) + total(samples);
+        while found.excess > 1.0 && samples < self.longest {
+            samples = self.length(2.0 * f64::from(samples));
+            found = run(Phase::Rerun, samples);
+            spent += total(samples);
         }
-        let samples = self.length(2.0 * f64::from(samples));
-        let found = run(Phase::Rerun, samples);
-        (found.value, spent + total(samples), found.excess <= 1.0)
+        (found.value, spent, found.excess <= 1.0)
     }
 
     fn length(&self, planned: f64) -> u32 {
@@ -146,10 +148,10 @@ mod tests {
         let mut lengths = Vec::new();
         let ((), spent, converged) = rule.sample(1, 4, |attempt| {
             lengths.push(attempt.samples);
-            found((), [2.0, 1.5, 0.9][lengths.len() - 1])
+            found((), [2.0, 1.5, 1.1, 0.9][lengths.len() - 1])
         });
         // 4 · (1.4 · 2)² = 31.4.
-        let expected = ([4, 32, 64].as_slice(), 1600, true);
+        let expected = ([4, 32, 64, 128].as_slice(), 3648, true);
         assert_eq!((lengths.as_slice(), spent, converged), expected);
         let (samples, _, converged) = rule.sample(1, 4, |attempt| found(attempt.samples, 1e9));
         assert_eq!((samples, converged), (1 << 10, false));

@@ -76,6 +76,17 @@ impl Facet {
         }
     }
 
+    /// Where to and by which share points are pulled so that those on an edge leave it by twice `lift`, in a square.
+    pub(super) fn pull(&self, lift: f64) -> (Point, f64) {
+        match &self.extent {
+            Extent::Polygon(polygon) => {
+                (polygon.middle(), (4.0 * lift / self.area.sqrt()).min(0.01))
+            }
+            Extent::Disc(disc) => (disc.center, (2.0 * lift / disc.radius).min(0.01)),
+            Extent::Sphere(sphere) => (sphere.center, 0.0),
+        }
+    }
+
     /// The share of samples that [`sample`](Self::sample) finds a point for.
     pub(super) fn sampled_share(&self) -> f64 {
         match &self.extent {

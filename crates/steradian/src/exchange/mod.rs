@@ -31,7 +31,7 @@ mod uncertain;
 
 pub use facets::{Extent, Facet, Facets, Sides};
 pub use grouping::{Grouping, Groups};
-pub use matrix::{ExchangeError, MatrixOptions, MatrixSummary, Technique, matrix};
+pub use matrix::{ExchangeError, MatrixOptions, MatrixSummary, Residual, Technique, matrix};
 pub use polygon::ConvexPolygon;
 pub use row::{Entry, Rest, Row};
 pub use uncertain::{IndependentSum, Uncertain};

@@ -1,0 +1,252 @@
+//! The matrix of a scene.
+
+mod sink;
+mod summary;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+use steradian::estimation::{Plan, Silent, Stopping};
+use steradian::exchange::{
+    Facets, Grouping, Groups, MatrixOptions, MatrixSummary, Row, Sides, Technique, matrix,
+};
+use steradian_io::report::form_factors::FactorReport;
+use steradian_kernel::InstructionSet;
+
+use crate::engine::Threads;
+use crate::progress::Watch;
+use crate::result::VERSION;
+use crate::status::{Failure, Outcome, remark};
+use crate::{load, output, values};
+pub use sink::Format;
+use sink::Sink;
+
+/// Half-width of the 95 % interval relative to the factor, where no other rule is given.
+const DEFAULT_REL_ERROR: f64 = 0.01;
+/// Rays of a row where rays are chosen for the number of facets.
+const DEFAULT_RAYS: u64 = 1 << 16;
+/// From so many facets on `auto` takes rays: their cost grows as n, that of pairs as n².
+const MOST_FOR_PAIRS: usize = 4000;
+/// Rays of each facet that find out whether a scene is closed.
+const RAYS_FOR_CLOSURE: u64 = 64;
+
+/// What is asked of a scene.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Of a scene")]
+pub struct SceneArguments {
+    /// What a row of the matrix is
+    #[arg(
+        long,
+        value_enum,
+        value_name = "WHAT",
+        default_value_t,
+        requires = "scene"
+    )]
+    by: By,
+    /// Sides of surfaces that take part
+    #[arg(
+        long,
+        value_enum,
+        value_name = "SIDES",
+        default_value_t,
+        requires = "scene"
+    )]
+    sides: Side,
+    /// Add the part of each surface's radiation that goes to the sky: its sky view factor
+    #[arg(long, requires = "scene")]
+    sky: bool,
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE", requires = "scene")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    computation: Computation,
+}
+
+/// How factors are found and when to stop.
+#[derive(Args, Debug)]
+struct Computation {
+    /// Pairs: closed forms where nothing stands between, and rays between the two elsewhere. Rays: all of a row from the same rays
+    #[arg(
+        long,
+        value_enum,
+        value_name = "METHOD",
+        default_value_t,
+        requires = "scene"
+    )]
+    method: Method,
+    /// Take this many samples for a pair or a row, whatever the error
+    #[arg(long, value_name = "NUMBER", value_parser = values::count, conflicts_with = "rel_error", requires = "scene")]
+    samples: Option<u64>,
+    /// Seed of all random numbers: the same seed gives the same bits
+    #[arg(long, value_name = "NUMBER", default_value_t = 0, requires = "scene")]
+    seed: u64,
+    #[command(flatten)]
+    threads: Threads,
+}
+
+/// Groupings by name.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum By {
+    /// Each plane polygon, disc and sphere
+    #[default]
+    Face,
+    /// Each shape
+    Object,
+    /// Each material
+    Material,
+}
+
+/// Sides by name.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Side {
+    /// The sides that normals point to
+    #[default]
+    Front,
+    /// The other sides
+    Back,
+    /// Both, each for itself
+    Both,
+}
+
+/// Techniques by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// Pairs, or rays for more than 4000 facets unless --rel-error is given
+    #[default]
+    Auto,
+    /// Pair by pair
+    Pairs,
+    /// Whole rows
+    Rays,
+}
+
+impl Computation {
+    fn technique(&self, facets: usize, rel_error: Option<f64>) -> Technique {
+        let is_large = facets > MOST_FOR_PAIRS && rel_error.is_none();
+        match self.method {
+            Method::Rays => Technique::Rays,
+            Method::Auto if is_large => Technique::Rays,
+            Method::Auto | Method::Pairs => Technique::Pairs,
+        }
+    }
+
+    fn plan(&self, technique: Technique, rel_error: Option<f64>) -> Plan {
+        let stop = match (self.samples, rel_error, technique) {
+            (Some(samples), _, _) => Stopping::at_samples(samples),
+            (None, Some(ratio), _) => Stopping::at_rel_error(ratio),
+            (None, None, Technique::Rays) => Stopping::at_samples(DEFAULT_RAYS),
+            (None, None, _) => Stopping::at_rel_error(DEFAULT_REL_ERROR),
+        };
+        Plan {
+            seed: self.seed,
+            stop,
+            threads: self.threads.count(),
+            max_samples: 1 << 26,
+            ..Plan::default()
+        }
+    }
+}
+
+/// Finds the matrix and writes it.
+pub fn run(
+    scene: &Path,
+    arguments: &SceneArguments,
+    rel_error: Option<f64>,
+    format: Option<Format>,
+) -> Result<Outcome, Failure> {
+    let loaded = load::surfaces(scene)?;
+    let facets = Facets::new(&loaded.scene, arguments.sides.into())?;
+    let groups = Groups::new(&facets, arguments.by.into());
+    let technique = arguments.computation.technique(facets.count(), rel_error);
+    let plan = arguments.computation.plan(technique, rel_error);
+    let options = MatrixOptions {
+        technique,
+        rest: arguments.sky,
+        instruction_set: InstructionSet::detect(),
+    };
+    let report = FactorReport {
+        names: groups.names().to_vec(),
+        areas: groups.areas().to_vec(),
+        scene_hash: loaded.hash,
+        seed: plan.seed,
+        version: VERSION.to_owned(),
+        confidence: plan.confidence,
+    };
+    let format = Format::of(format, arguments.output.as_deref())?;
+    let mut sink = Sink::new(format, &report, arguments.output.as_deref())?;
+    let begin = Instant::now();
+    let mut watch = Watch::new()?;
+    let summary = matrix(
+        &facets,
+        &groups,
+        &options,
+        &plan,
+        &mut watch,
+        &mut |row: Row| {
+            sink.take(row);
+        },
+    )?;
+    let interrupted = watch.finish();
+    sink.finish(&summary)?;
+    let closed = is_closed(&facets, &options, &plan)?;
+    if format == Format::Table {
+        output::print(&summary::text(&summary, &report, facets.count(), closed))?;
+    }
+    remark(&format!("{:.1} s", begin.elapsed().as_secs_f64()));
+    Ok(outcome(&summary, closed, interrupted))
+}
+
+/// Whether no ray of a few from each facet leaves the scene or meets what is no facet.
+fn is_closed(facets: &Facets, options: &MatrixOptions, plan: &Plan) -> Result<bool, Failure> {
+    let whole = Groups::new(facets, Grouping::Material);
+    let options = MatrixOptions {
+        technique: Technique::Rays,
+        ..*options
+    };
+    let plan = Plan {
+        stop: Stopping::at_samples(RAYS_FOR_CLOSURE),
+        ..plan.clone()
+    };
+    let mut closed = true;
+    matrix(facets, &whole, &options, &plan, &mut Silent, &mut |row| {
+        let escaped = row.rest.map_or(0.0, |rest| {
+            rest.sky.value + rest.below.value + rest.other.value
+        });
+        closed &= escaped == 0.0;
+    })?;
+    Ok(closed)
+}
+
+/// Fine if all is there, as precise as asked, and sums that should be 1 are, but for chance.
+fn outcome(summary: &MatrixSummary, closed: bool, interrupted: bool) -> Outcome {
+    let met = summary.complete && summary.missed == 0 && !interrupted;
+    let explained = summary.closure.is_none_or(|worst| {
+        let may_be_less = !closed && worst.difference.value < 0.0;
+        may_be_less || worst.is_explained(summary.rows)
+    });
+    let reciprocal = summary
+        .reciprocity
+        .is_none_or(|worst| worst.is_explained(summary.rows * summary.rows));
+    Outcome::fine_if(met && explained && reciprocal)
+}
+
+impl From<By> for Grouping {
+    fn from(by: By) -> Self {
+        match by {
+            By::Face => Self::Face,
+            By::Object => Self::Object,
+            By::Material => Self::Material,
+        }
+    }
+}
+
+impl From<Side> for Sides {
+    fn from(side: Side) -> Self {
+        match side {
+            Side::Front => Self::Front,
+            Side::Back => Self::Back,
+            Side::Both => Self::Both,
+        }
+    }
+}
