@@ -32,6 +32,22 @@ const CONFIGURATIONS: [Configuration; 13] = [
         },
     },
     Configuration {
+        name: "perpendicular-rectangles",
+        keys: &["width", "height", "edge"],
+        what: "a floor of this width and a wall of this height with a common edge",
+        factors: |sizes| {
+            let [width, height, edge] = [
+                sizes.interval("width")?,
+                sizes.interval("height")?,
+                sizes.interval("edge")?,
+            ];
+            closed(form_factor::between_perpendicular_rectangles(
+                [width, edge],
+                [edge, height],
+            ))
+        },
+    },
+    Configuration {
         name: "hinged-rectangles",
         keys: &["width1", "width2", "edge", "angle"],
         what: "two rectangles with a common edge, at an angle",
@@ -92,7 +108,7 @@ const CONFIGURATIONS: [Configuration; 13] = [
                 name: "F12",
                 factor: Factor {
                     value,
-                    error: 1e-12 * value,
+                    error: 1e-11 * value,
                 },
             }])
         },
@@ -147,22 +163,6 @@ const CONFIGURATIONS: [Configuration; 13] = [
             closed(form_factor::between_wedge_sides(
                 widths,
                 sizes.angle("angle")?,
-            ))
-        },
-    },
-    Configuration {
-        name: "perpendicular-rectangles",
-        keys: &["width", "height", "edge"],
-        what: "a floor of this width and a wall of this height with a common edge",
-        factors: |sizes| {
-            let [width, height, edge] = [
-                sizes.interval("width")?,
-                sizes.interval("height")?,
-                sizes.interval("edge")?,
-            ];
-            closed(form_factor::between_perpendicular_rectangles(
-                [width, edge],
-                [edge, height],
             ))
         },
     },

@@ -109,7 +109,7 @@ pub fn from_sphere_to_coaxial_disc(
 /// F₁₂ = ½ ∫ F(α) sinα dα
 ///
 /// in two parts, where the second sphere is seen wholly and where the horizon cuts it. A substitution takes away the roots at
-/// the ends of the second, and Gauss rules leave an error below 10⁻¹².
+/// the ends of the second, and Gauss rules leave an error below 10⁻¹¹.
 ///
 /// # Errors
 /// If a length is not positive or the spheres overlap.
@@ -199,6 +199,22 @@ mod tests {
             share,
             1e-7
         ));
+    }
+
+    #[test]
+    fn spheres_that_nearly_touch_are_reciprocal() {
+        for gap in [0.0, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2] {
+            let [x, y, d] = [1.0, 0.3, 1.3 + gap].map(Length::from_metres);
+            let (forth, back) = (
+                between_spheres([x, y], d).unwrap(),
+                between_spheres([y, x], d).unwrap(),
+            );
+            assert!(
+                close(forth, 0.09 * back, 1e-11),
+                "{gap}: {}",
+                forth - 0.09 * back
+            );
+        }
     }
 
     #[test]
