@@ -4,6 +4,7 @@
 //! freedom: a false alarm of 1.7e-4 for each comparison, met or not met once and for all with the seed.
 
 mod energy;
+mod full_view;
 mod lamps;
 mod mirrors;
 mod reflection;

@@ -139,6 +139,15 @@ impl Surfaces {
         self.primitive_shape[primitive as usize]
     }
 
+    /// The part of a primitive, by number.
+    pub fn part_of(&self, primitive: u32) -> u32 {
+        let number = primitive as usize;
+        match self.triangles.get(number) {
+            Some(triangle) => triangle.part,
+            None => self.quadrics[number - self.triangles.len()].part,
+        }
+    }
+
     /// Triangles for shading, in primitive order.
     pub fn triangles(&self) -> &[TriangleRecord] {
         &self.triangles
@@ -149,12 +158,19 @@ impl Surfaces {
         &self.quadrics
     }
 
-    /// True only if no surface reaches above the plane through `point`, by more than `clearance` metres.
-    pub fn nothing_above(&self, point: Point, normal: Direction, clearance: f64) -> bool {
+    /// True only if no surface, except the primitives that `ignore` accepts, reaches above the plane through `point`, by
+    /// more than `clearance` metres.
+    pub fn nothing_above(
+        &self,
+        point: Point,
+        normal: Direction,
+        clearance: f64,
+        ignore: &dyn Fn(u32) -> bool,
+    ) -> bool {
         let p = point - self.origin;
         let down = -normal;
         let plane = [down.x(), down.y(), down.z(), down.dot(p) - clearance];
-        self.accelerator.region_is_clear(&[plane], &|_| false)
+        self.accelerator.region_is_clear(&[plane], ignore)
     }
 
     /// True only if no surface, except the primitives that `ignore` accepts, reaches into the region: the condition for

@@ -212,7 +212,7 @@ impl Vertices {
 }
 
 /// A point of a surface, in kernel coordinates.
-#[derive(Copy, Clone, Debug)]
+#[derive(Copy, Clone, Debug, PartialEq)]
 pub(super) struct Place {
     pub point: [f32; 3],
     pub normal: [f32; 3],
@@ -277,6 +277,8 @@ pub struct Workspace {
     pub(super) passing: Flights,
     /// By slot; of no meaning unless the run is spectral.
     pub(super) wavelengths: Vec<Wavelengths>,
+    /// By slot, a bit for each of the first emitters whose light is known where the path starts, and not to be gathered there.
+    pub(super) known: Vec<u64>,
     pub(super) hits: HitBatch,
     pub(super) vertices: Vertices,
     pub(super) mirrors: Vertices,

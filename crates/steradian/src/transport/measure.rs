@@ -11,7 +11,7 @@ use super::meters::{Meter, Prepared};
 use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter;
-use super::tables::{Candidates, Model, Tables};
+use super::tables::{Candidates, Model, Receiver, Tables};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
 use crate::material::Site;
 use crate::sampling::{block, hash, warp};
@@ -57,9 +57,9 @@ enum Mode {
 impl Meter<'_> {
     fn mode(&self) -> Mode {
         match self {
-            Meter::Irradiance(_) => Mode::Hemisphere { delta: false },
+            Meter::Irradiance { .. } => Mode::Hemisphere { delta: false },
             Meter::Flux(_) => Mode::Hemisphere { delta: true },
-            Meter::Scalar(_) => Mode::Sphere,
+            Meter::Scalar { .. } => Mode::Sphere,
             Meter::Surface { .. } => Mode::Surface,
             Meter::Ray { .. } => Mode::Ray,
         }
@@ -68,9 +68,9 @@ impl Meter<'_> {
     /// What a path's gathered light is multiplied with.
     fn scale(&self) -> f64 {
         match self {
-            Meter::Irradiance(_) => PI,
+            Meter::Irradiance { .. } => PI,
             Meter::Flux(flux) => PI * flux.area,
-            Meter::Scalar(_) => 4.0 * PI,
+            Meter::Scalar { .. } => 4.0 * PI,
             Meter::Surface { .. } | Meter::Ray { .. } => 1.0,
         }
     }
@@ -123,17 +123,18 @@ impl<'a> Meters<'a> {
                 self.tracer.follow(paths, 1, tables.for_surfaces());
             }
             Mode::Ray => self.tracer.follow(paths, 0, tables.for_surfaces()),
-            Mode::Sphere => self.look(paths, tables.for_meters(false), true),
-            Mode::Hemisphere { delta } => self.look(paths, tables.for_meters(delta), false),
+            Mode::Sphere => self.look(paths, tables.for_meters(false, Receiver::Scalar)),
+            Mode::Hemisphere { delta } => {
+                self.look(paths, tables.for_meters(delta, Receiver::Irradiance));
+            }
         }
     }
 
     /// Samples the lights at meters and sends paths out.
-    fn look(&self, paths: &mut Workspace, candidates: Candidates, spherical: bool) {
+    fn look(&self, paths: &mut Workspace, candidates: Candidates) {
         let next_event = NextEvent {
             tracer: &self.tracer,
             candidates,
-            spherical,
         };
         if candidates.all {
             for emitter in 0..candidates.count {
@@ -154,7 +155,7 @@ impl<'a> Meters<'a> {
             DIRECTION_BLOCK,
             &mut paths.uniforms,
         );
-        if spherical {
+        if candidates.receiver == Receiver::Scalar {
             leave_over_sphere(paths);
         } else {
             scatter::leave_diffusely(&self.tracer, paths, None);
@@ -174,15 +175,17 @@ impl<'a> Meters<'a> {
                 paths.wavelengths[identity.0 as usize] = density.sample(w);
             }
             match &stream.meter {
-                Meter::Irradiance(place) => {
+                Meter::Irradiance { place, known } => {
+                    paths.known[identity.0 as usize] = *known;
                     paths
                         .vertices
-                        .push(*place, [FRAC_1_PI; 4], identity, [u[2], u[3]])
+                        .push(*place, [FRAC_1_PI; 4], identity, [u[2], u[3]]);
                 }
-                Meter::Scalar(place) => {
+                Meter::Scalar { place, known } => {
+                    paths.known[identity.0 as usize] = *known;
                     paths
                         .vertices
-                        .push(*place, [0.25 * FRAC_1_PI; 4], identity, [u[2], u[3]])
+                        .push(*place, [0.25 * FRAC_1_PI; 4], identity, [u[2], u[3]]);
                 }
                 Meter::Surface {
                     place,

@@ -7,18 +7,20 @@
 //! | flux | uniform over the surface, then cosθ/π | πA |
 //! | radiance | the surface that the ray meets | 1 |
 //!
-//! A point sees lights without extent exactly: E = Σ I cosθ/r² · V in f64, with no sampling error. A ray sees the
-//! emission of the surface it meets exactly. What surfaces reflect is sampled.
+//! A point sees lights without extent exactly: E = Σ I cosθ/r² · V in f64, with no sampling error; so it does those extended lights
+//! that nothing [may hide](super::shaft). A ray sees the emission of the surface it meets exactly. What surfaces reflect is
+//! sampled.
 
 use steradian_kernel::{HitBatch, MISS, RayBatch};
 
 use super::columns::Place;
-use super::exact;
+use super::exact::{self, is_known};
 use super::flux::FluxMeter;
 use super::interaction::hit;
+use super::shaft::View;
 use super::tables::{Model, OPAQUE, Side, Tables};
 use crate::geometry::{Direction, Point};
-use crate::light::Light;
+use crate::light::{self, Light};
 use crate::material::Site;
 use crate::scene::Scene;
 use crate::sensor::{FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
@@ -27,9 +29,13 @@ use crate::shape::Form;
 /// What one stream samples.
 pub(super) enum Meter<'a> {
     /// A point that takes light from the hemisphere of its normal.
-    Irradiance(Place),
+    Irradiance {
+        place: Place,
+        /// A bit for each emitter whose light is known.
+        known: u64,
+    },
     /// A point that takes light from everywhere.
-    Scalar(Place),
+    Scalar { place: Place, known: u64 },
     /// The reflecting surface that a ray meets.
     Surface {
         place: Place,
@@ -92,70 +98,112 @@ struct Context<'t, 'a> {
     max_depth: u32,
     /// Columns in which no light has any power.
     dark: Vec<bool>,
-    /// Columns of which a point receives lights without extent only, by themselves and not by reflection.
-    closed_at_points: Vec<bool>,
+    /// By light and channel, whether it has any power.
+    shines: Vec<Vec<bool>>,
+    /// By light and channel, whether a surface may reflect it.
+    reflected: Vec<Vec<bool>>,
 }
 
 impl<'t, 'a> Context<'t, 'a> {
     fn new(tables: &'t Tables<'a>, max_depth: u32) -> Self {
         let scene = tables.scene;
-        let context = Context {
+        let mut context = Context {
             tables,
             scene,
             max_depth,
             dark: vec![],
-            closed_at_points: vec![],
+            shines: vec![],
+            reflected: vec![],
+        };
+        let has_power = |light: &Light| {
+            let powers = scene.channels(light, light.power()).into_iter();
+            powers.map(|power| power > 0.0).collect()
+        };
+        context.shines = scene.lights().iter().map(has_power).collect();
+        let lights = scene.lights().iter();
+        context.reflected = lights.map(|light| context.reflected(light)).collect();
+        context.dark = context.columns_where(|_| true);
+        context
+    }
+
+    /// For each channel, whether a surface other than a light's own may reflect it: a flat or convex one does not light itself.
+    fn reflected(&self, light: &Light) -> Vec<bool> {
+        let surfaces = self.scene.surfaces();
+        let own = match &light.kind {
+            light::Kind::Area(area) => Some(surfaces.shape(area.shape)),
+            _ => None,
+        };
+        let own = own.filter(|placed| is_convex(&placed.form));
+        let is_own = |part: usize| {
+            own.is_some_and(|placed| placed.parts.iter().any(|id| id.0 as usize == part))
         };
         let reflects = |channel: usize| {
-            let by = |side: &Side| side.model != Model::Black && side.may_reflect(channel);
-            max_depth >= 2 && tables.sides.iter().any(by)
+            let mut sides = self.tables.sides.iter().enumerate();
+            self.max_depth >= 2
+                && sides.any(|(number, side)| {
+                    side.model != Model::Black && side.may_reflect(channel) && !is_own(number / 2)
+                })
         };
-        let channels = scene.lanes().count();
-        let reflects: Vec<bool> = (0..channels).map(reflects).collect();
-        let of = |light: &Light| scene.channels(light, light.power());
-        let dark = context.columns_where(|light| of(light).iter().map(|x| *x > 0.0).collect());
-        let closed_at_points = context.columns_where(|light| {
-            let shines = of(light).into_iter().zip(&reflects);
-            shines
-                .map(|(x, reflects)| x > 0.0 && (*reflects || !light.is_delta()))
-                .collect()
+        (0..self.scene.lanes().count()).map(reflects).collect()
+    }
+
+    /// Columns of which a point receives nothing but what is known exactly: lights without extent, and these emitters.
+    fn closed_at(&self, known: u64) -> Vec<bool> {
+        let emitters = self.tables.emitters.iter().enumerate();
+        let mut of_emitters = vec![false; self.scene.lights().len()];
+        emitters.for_each(|(number, emitter)| {
+            of_emitters[emitter.light] = emitter.shape.is_delta() || is_known(known, number);
         });
-        Context {
-            dark,
-            closed_at_points,
-            ..context
-        }
+        self.columns_where(|(light, channel)| self.reflected[light][channel] || !of_emitters[light])
     }
 
     fn columns(&self) -> usize {
         self.scene.columns()
     }
 
-    /// True for the columns to which no light contributes; `contributes` tells for each channel.
-    fn columns_where(&self, contributes: impl Fn(&Light) -> Vec<bool>) -> Vec<bool> {
+    /// True for the columns to which no light that has any power there contributes; `contributes` is asked for a light and a
+    /// channel.
+    fn columns_where(&self, contributes: impl Fn((usize, usize)) -> bool) -> Vec<bool> {
         let channels = self.scene.lanes().count();
         let mut none = vec![true; self.columns()];
-        for light in self.scene.lights() {
+        for (number, light) in self.scene.lights().iter().enumerate() {
             let columns = &mut none[light.group as usize * channels..][..channels];
-            for (none, contributes) in columns.iter_mut().zip(contributes(light)) {
-                *none &= !contributes;
+            for (channel, none) in columns.iter_mut().enumerate() {
+                *none &= !(self.shines[number][channel] && contributes((number, channel)));
             }
         }
         none
     }
 
     /// Whether a point can receive anything that must be sampled.
-    fn samples_points(&self) -> bool {
-        self.max_depth >= 1 && self.closed_at_points.contains(&false)
+    fn samples_points(&self, closed: &[bool]) -> bool {
+        self.max_depth >= 1 && closed.contains(&false)
     }
 
-    /// Whether a receiver can: not if nothing shines from everywhere and no surface reaches above its plane.
-    fn samples_receiver(&self, receiver: &Receiver) -> bool {
+    /// Whether a receiver can: not if nothing shines from everywhere, and no surface above its plane reflects or has light that is
+    /// not known.
+    fn samples_receiver(&self, receiver: &Receiver, known: u64, closed: &[bool]) -> bool {
         let surfaces = self.scene.surfaces();
         let clearance = receiver.clearance.max(surfaces.clearance());
-        self.samples_points()
+        let is_dark = |side: &Side| {
+            side.model == Model::Black && (!side.emits || is_known(known, side.emitter as usize))
+        };
+        let is_dark = |primitive: u32| {
+            let part = 2 * surfaces.part_of(primitive) as usize;
+            self.tables.sides[part..part + 2].iter().all(is_dark)
+        };
+        let plane = (receiver.position, receiver.normal);
+        self.samples_points(closed)
             && !(self.tables.environment.is_empty()
-                && surfaces.nothing_above(receiver.position, receiver.normal, clearance))
+                && surfaces.nothing_above(plane.0, plane.1, clearance, &is_dark))
+    }
+
+    /// Adds the extended lights in full view of a point, and tells which they are.
+    fn known(&self, view: &View, exact: &mut [f64]) -> u64 {
+        if self.max_depth == 0 {
+            return 0;
+        }
+        exact::extended(self.tables, view, exact)
     }
 
     fn irradiance(&self, index: usize, receiver: &Receiver) -> Prepared<'a> {
@@ -164,21 +212,21 @@ impl<'t, 'a> Context<'t, 'a> {
             normal: receiver.normal.to_array().map(|x| x as f32),
             clearance: receiver.clearance as f32,
         };
+        let (position, normal) = (receiver.position, Some(receiver.normal));
+        let mut exact = exact::irradiance(self.tables, position, normal, receiver.clearance);
+        let view = View::new(position, normal, receiver.clearance);
+        let known = self.known(&view, &mut exact);
+        let closed = self.closed_at(known);
         Prepared {
             index,
-            position: Some(receiver.position),
-            normal: Some(receiver.normal),
+            position: Some(position),
+            normal,
             sits_on: receiver.sits_on.clone(),
-            exact: exact::irradiance(
-                self.tables,
-                receiver.position,
-                Some(receiver.normal),
-                receiver.clearance,
-            ),
-            closed: self.closed_at_points.clone(),
             meter: self
-                .samples_receiver(receiver)
-                .then_some(Meter::Irradiance(place)),
+                .samples_receiver(receiver, known, &closed)
+                .then_some(Meter::Irradiance { place, known }),
+            exact,
+            closed,
             stream: None,
         }
     }
@@ -189,14 +237,19 @@ impl<'t, 'a> Context<'t, 'a> {
             normal: [0.0, 0.0, 1.0],
             clearance: 0.0,
         };
+        let mut exact = exact::irradiance(self.tables, point, None, 0.0);
+        let known = self.known(&View::new(point, None, 0.0), &mut exact);
+        let closed = self.closed_at(known);
         Prepared {
             index,
             position: Some(point),
             normal: None,
             sits_on: None,
-            exact: exact::irradiance(self.tables, point, None, 0.0),
-            closed: self.closed_at_points.clone(),
-            meter: self.samples_points().then_some(Meter::Scalar(place)),
+            meter: self
+                .samples_points(&closed)
+                .then_some(Meter::Scalar { place, known }),
+            exact,
+            closed,
             stream: None,
         }
     }
@@ -305,5 +358,14 @@ impl<'t, 'a> Context<'t, 'a> {
             meter,
             stream: None,
         }
+    }
+}
+
+/// Whether no point of the front sees another.
+fn is_convex(form: &Form) -> bool {
+    match form {
+        Form::Parallelogram(_) | Form::Disc(_) | Form::Plane { .. } => true,
+        Form::Sphere(sphere) => !sphere.inside && sphere.ports.is_empty(),
+        Form::Mesh(_) => false,
     }
 }

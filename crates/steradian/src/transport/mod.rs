@@ -3,6 +3,7 @@
 //! [`measure`] reads every sensor but cameras, [`render`] a camera. Both run the [`path`](self) estimator under the
 //! engine of [`estimation`](crate::estimation), which decides how many samples are taken and how large the error is.
 
+mod aim;
 mod appearance;
 mod camera;
 mod channels;
@@ -20,6 +21,7 @@ mod profile;
 pub mod reflection;
 mod run;
 mod scatter;
+mod shaft;
 mod tables;
 mod towards;
 mod transmittance;

@@ -6,17 +6,23 @@
 //!
 //! An area light's sample carries the power-heuristic weight against the vertex's own density cosθ/π (1/4π for a
 //! meter of scalar irradiance), which bounds it: see [`path`](super::path).
+//!
+//! Meters [aim](super::aim) at facets and spheres: each sample then has the same weight, and directions sampled otherwise find nothing
+//! there. The vertices of a path draw by area: in the Cornell box aiming there lowers the relMSE by 5 % (4 % by solid angle), which is less
+//! than it takes in time.
 
 use std::f32::consts::{FRAC_1_PI, PI, TAU};
 
 use glam::Vec3;
 
-use super::columns::{Shadows, Vertices, Workspace};
+use super::aim::{Aim, is_aimed_at};
+use super::columns::{Place, Shadows, Vertices, Workspace};
+use super::exact::is_known;
 use super::interaction::Hit;
 use super::panel::{Panel, SamplePanel};
 use super::path::Tracer;
 use super::profile::Stage;
-use super::tables::{Candidates, EmitterShape, Tables};
+use super::tables::{Candidates, EmitterShape, Receiver, Tables};
 use super::towards::{cone, towards};
 
 /// One pass over the vertices of a batch.
@@ -24,8 +30,6 @@ pub(super) struct NextEvent<'a> {
     pub tracer: &'a Tracer<'a>,
     /// The emitters to sample.
     pub candidates: Candidates,
-    /// The receiver takes light from the whole sphere, not foreshortened.
-    pub spherical: bool,
 }
 
 impl NextEvent<'_> {
@@ -39,23 +43,29 @@ impl NextEvent<'_> {
         let (vertices, shadows) = (&workspace.vertices, &mut workspace.shadows);
         let numbers = [&vertices.light_u[..], &vertices.light_v[..]];
         if self.candidates.count == 1 {
-            self.sample_all(0, vertices, numbers, shadows);
+            self.sample_all(0, (vertices, &workspace.known), numbers, shadows);
         } else {
             for i in 0..count {
                 let (emitter, u) = choose(self.tracer.tables, self.candidates, numbers[0][i]);
-                self.sample(i, emitter, [u, numbers[1][i]], vertices, shadows);
+                let u = [u, numbers[1][i]];
+                if self.candidates.receiver == Receiver::Surface {
+                    self.sample(i, emitter, u, vertices, shadows);
+                } else {
+                    let mut aimed = Aimed::at(self, emitter);
+                    aimed.sample(i, u, (vertices, &workspace.known), shadows);
+                }
             }
         }
         self.settle(workspace);
     }
 
-    /// Samples one given emitter at every vertex, with the last two columns of uniform numbers.
+    /// Samples one given emitter at every meter, with the last two columns of uniform numbers.
     pub fn gather_from(&self, workspace: &mut Workspace, emitter: usize) {
         workspace.shadows.reset(workspace.vertices.len());
         let numbers = [&workspace.uniforms[2][..], &workspace.uniforms[3][..]];
         self.sample_all(
             emitter,
-            &workspace.vertices,
+            (&workspace.vertices, &workspace.known),
             numbers,
             &mut workspace.shadows,
         );
@@ -65,11 +75,19 @@ impl NextEvent<'_> {
     fn sample_all(
         &self,
         number: usize,
-        vertices: &Vertices,
+        (vertices, known): (&Vertices, &[u64]),
         numbers: [&[f32]; 2],
         shadows: &mut Shadows,
     ) {
         let tables = self.tracer.tables;
+        if self.candidates.receiver != Receiver::Surface {
+            let mut aimed = Aimed::at(self, number);
+            for i in 0..vertices.len() {
+                let u = [numbers[0][i], numbers[1][i]];
+                aimed.sample(i, u, (vertices, known), shadows);
+            }
+            return;
+        }
         let emitter = &tables.emitters[number];
         if let (
             EmitterShape::Parallelogram {
@@ -79,12 +97,8 @@ impl NextEvent<'_> {
                 area,
             },
             false,
-            false,
-        ) = (
-            &emitter.shape,
-            self.spherical,
-            tables.has_textures(&emitter.power),
-        ) {
+        ) = (&emitter.shape, tables.has_textures(&emitter.power))
+        {
             shadows.emitter.fill(number as u32);
             let (origin, edges, normal) = (*origin, *edges, *normal);
             let (area, two_sided, probability) = (
@@ -113,7 +127,21 @@ impl NextEvent<'_> {
         }
     }
 
-    fn sample(
+    /// Whether the receiver takes light from the whole sphere, not foreshortened.
+    fn is_spherical(&self) -> bool {
+        self.candidates.receiver == Receiver::Scalar
+    }
+
+    /// Where the rays of a receiver start.
+    fn start(&self, place: &Place) -> [f32; 3] {
+        if self.is_spherical() {
+            place.point
+        } else {
+            place.cleared()
+        }
+    }
+
+    pub(super) fn sample(
         &self,
         i: usize,
         number: usize,
@@ -127,7 +155,7 @@ impl NextEvent<'_> {
             return;
         };
         let cos_theta = towards.direction.dot(Vec3::from_array(place.normal));
-        let (foreshortening, own_density) = if self.spherical {
+        let (foreshortening, own_density) = if self.is_spherical() {
             (1.0, 0.25 * FRAC_1_PI)
         } else {
             (cos_theta, cos_theta * FRAC_1_PI)
@@ -141,11 +169,7 @@ impl NextEvent<'_> {
             foreshortening * towards.per_power / (probability * (1.0 + ratio * ratio));
         shadows.emitter[i] = number as u32;
         shadows.numbers[i] = u;
-        let start = Vec3::from_array(if self.spherical {
-            place.point
-        } else {
-            place.cleared()
-        });
+        let start = Vec3::from_array(self.start(&place));
         let (span, reach) = if towards.infinite {
             (towards.direction, f32::INFINITY)
         } else {
@@ -207,6 +231,68 @@ impl NextEvent<'_> {
                 | EmitterShape::Spot { .. }
                 | EmitterShape::Directional { .. } => 0.0,
             }
+    }
+}
+
+/// One emitter at meters.
+struct Aimed<'a> {
+    pass: &'a NextEvent<'a>,
+    number: usize,
+    /// The last meter: a stream's samples are all taken at the same one.
+    last: Option<(Place, Aim)>,
+}
+
+impl<'a> Aimed<'a> {
+    fn at(pass: &'a NextEvent<'a>, number: usize) -> Self {
+        Self {
+            pass,
+            number,
+            last: None,
+        }
+    }
+
+    /// Samples the emitter by aiming at it where that can be done, and not at all where its light is known.
+    fn sample(
+        &mut self,
+        i: usize,
+        u: [f32; 2],
+        (vertices, known): (&Vertices, &[u64]),
+        shadows: &mut Shadows,
+    ) {
+        let slot = vertices.identity.slot[i] as usize;
+        if is_known(known[slot], self.number) {
+            return;
+        }
+        let place = vertices.place(i);
+        let tables = self.pass.tracer.tables;
+        let emitter = &tables.emitters[self.number];
+        if !is_aimed_at(tables, emitter, self.pass.start(&place)) {
+            self.pass.sample(i, self.number, u, vertices, shadows);
+            return;
+        }
+        if !matches!(&self.last, Some((last, _)) if *last == place) {
+            let aim = Aim::new(tables, emitter, &place, self.pass.is_spherical());
+            self.last = Some((place, aim));
+        }
+        if let Some((_, aim)) = &self.last {
+            self.cast(i, &place, aim, u, shadows);
+        }
+    }
+
+    fn cast(&self, i: usize, place: &Place, aim: &Aim, u: [f32; 2], shadows: &mut Shadows) {
+        let Some(end) = aim.sample(place, u) else {
+            return;
+        };
+        let probability = self
+            .pass
+            .tracer
+            .tables
+            .probability(self.pass.candidates, self.number);
+        shadows.gain[i] = aim.weight() as f32 / probability;
+        shadows.emitter[i] = self.number as u32;
+        shadows.numbers[i] = u;
+        let start = Vec3::from_array(self.pass.start(place));
+        shadows.rays.set(i, start.into(), (end - start).into(), 1.0);
     }
 }
 

@@ -18,12 +18,14 @@
 
 use steradian_kernel::{InstructionSet, MISS};
 
+use super::aim::is_aimed_at;
 use super::columns::{BATCH, Flights, Place, Vertices, Workspace};
+use super::exact::is_known;
 use super::interaction::{Hit, hit};
 use super::next_event::NextEvent;
 use super::profile::Stage;
 use super::scatter;
-use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, OPAQUE, Side, Tables};
+use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, OPAQUE, Receiver, Side, Tables};
 use crate::material::Site;
 use crate::sampling::hash;
 use crate::spectrum::Wavelengths;
@@ -54,6 +56,8 @@ impl Tracer<'_> {
         debug_assert!(slots <= BATCH);
         workspace.gathered.clear();
         workspace.gathered.resize(self.columns() * BATCH, 0.0);
+        workspace.known.clear();
+        workspace.known.resize(slots, 0);
         workspace.wavelengths.clear();
         workspace.wavelengths.resize(slots, Wavelengths::default());
         workspace.flights.clear();
@@ -97,7 +101,6 @@ impl Tracer<'_> {
         NextEvent {
             tracer: self,
             candidates,
-            spherical: false,
         }
         .gather(workspace);
         scatter::reflect(self, workspace, segment);
@@ -120,7 +123,13 @@ impl Tracer<'_> {
             }
             let side = &tables.sides[hit.side as usize];
             if side.emits {
-                let weight = self.emission_weight(side, &hit, workspace.flights.pdf[i], candidates);
+                let weight = self.emission_weight(
+                    side,
+                    &hit,
+                    workspace.flights.pdf[i],
+                    candidates,
+                    workspace.known[slot as usize],
+                );
                 let radiance = tables.lanes_at(&side.radiance, wavelengths, || tables.site(&hit));
                 self.add(&mut workspace.gathered, side.group, slot, |lane| {
                     workspace.flights.throughput[lane][i] * radiance[lane] * weight
@@ -202,9 +211,28 @@ impl Tracer<'_> {
     }
 
     /// Power-heuristic weight of emission that a sampled direction met.
-    fn emission_weight(&self, side: &Side, hit: &Hit, pdf: f32, candidates: Candidates) -> f32 {
+    ///
+    /// It is 0 of light that is `known` at the meter where the path started, or that was gathered there by aiming at it.
+    fn emission_weight(
+        &self,
+        side: &Side,
+        hit: &Hit,
+        pdf: f32,
+        candidates: Candidates,
+        known: u64,
+    ) -> f32 {
         if side.emitter == NO_EMITTER {
             return 1.0;
+        }
+        if candidates.receiver != Receiver::Surface
+            && (is_known(known, side.emitter as usize)
+                || is_aimed_at(
+                    self.tables,
+                    &self.tables.emitters[side.emitter as usize],
+                    hit.origin,
+                ))
+        {
+            return 0.0;
         }
         let ratio = NextEvent::density(self.tables, side.emitter, hit, candidates) / pdf;
         1.0 / (1.0 + ratio * ratio)

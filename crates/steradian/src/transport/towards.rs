@@ -238,14 +238,7 @@ fn in_cone(
     let distance = axis.length();
     let local = [sin * cos_phi, sin * sin_phi, cos];
     let direction = Vec3::from_array(super::scatter::to_world((axis / distance).into(), local));
-    let reach = distance * cos
-        - (radius * radius - distance * distance * sin2)
-            .max(0.0)
-            .sqrt();
-    let outwards = (vertex + direction * reach - center).normalize();
-    let point = center + outwards * radius;
-    let coordinates = point.abs() + center.abs();
-    let end = point + outwards * clearance(coordinates.into(), radius + distance);
+    let end = on_sphere(center, radius, vertex, direction);
     let density = 1.0 / (TAU * one_minus_cos_max);
     Towards {
         direction,
@@ -254,4 +247,17 @@ fn in_cone(
         per_power: 1.0 / density,
         density,
     }
+}
+
+/// End of a shadow ray from `vertex` that goes in a `direction` to a sphere: where it meets it first, moved off its surface.
+pub(super) fn on_sphere(center: Vec3, radius: f32, vertex: Vec3, direction: Vec3) -> Vec3 {
+    let axis = center - vertex;
+    let along = direction.dot(axis);
+    // As a vector, the way past the centre keeps its digits.
+    let past = (axis - direction * along).length_squared();
+    let reach = along - (radius * radius - past).max(0.0).sqrt();
+    let outwards = (vertex + direction * reach - center).normalize();
+    let point = center + outwards * radius;
+    let coordinates = point.abs() + center.abs();
+    point + outwards * clearance(coordinates.into(), radius + axis.length())
 }

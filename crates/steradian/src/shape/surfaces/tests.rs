@@ -131,7 +131,8 @@ fn nothing_above_the_highest_surface() {
     let mut shapes = forms(Vector::ZERO);
     shapes.truncate(4);
     let surfaces = Surfaces::new(shapes, Point::ORIGIN).unwrap();
-    let above = |z, normal| surfaces.nothing_above(Point::new(0.5, 0.5, z), normal, 1e-6);
+    let above =
+        |z, normal| surfaces.nothing_above(Point::new(0.5, 0.5, z), normal, 1e-6, &|_| false);
     assert!(above(2.0, Direction::Z) && above(3.0, Direction::Z));
     assert!(!above(1.999, Direction::Z) && !above(0.0, Direction::Z));
     assert!(above(0.5, -Direction::Z) && !above(0.501, -Direction::Z));

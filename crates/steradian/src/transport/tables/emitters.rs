@@ -1,5 +1,6 @@
 //! Emitters: the lights that next-event estimation samples, and how likely each is chosen.
 
+use super::outlines::outline;
 use super::{Emitter, EmitterShape, NO_EMITTER, Tinted};
 use crate::geometry::{Frame, Point};
 use crate::light::{Kind, Light};
@@ -15,7 +16,7 @@ pub(super) fn emitters(scene: &Scene, powers: &[Tinted]) -> (Vec<Emitter>, Vec<u
     let mut emitters = Vec::new();
     let mut emitter_of_light = vec![NO_EMITTER; lights.len()];
     for index in extent.into_iter().chain(delta) {
-        if let Some(emitter) = emitter(scene, &lights[index], powers[index]) {
+        if let Some(emitter) = emitter(scene, index, powers[index]) {
             emitter_of_light[index] = emitters.len() as u32;
             emitters.push(emitter);
         }
@@ -23,7 +24,8 @@ pub(super) fn emitters(scene: &Scene, powers: &[Tinted]) -> (Vec<Emitter>, Vec<u
     (emitters, emitter_of_light)
 }
 
-fn emitter(scene: &Scene, light: &Light, power: Tinted) -> Option<Emitter> {
+fn emitter(scene: &Scene, number: usize, power: Tinted) -> Option<Emitter> {
+    let light = &scene.lights()[number];
     let shape = emitter_shape(scene, light)?;
     let area = match &light.kind {
         Kind::Area(area) => Some(area),
@@ -31,6 +33,8 @@ fn emitter(scene: &Scene, light: &Light, power: Tinted) -> Option<Emitter> {
     };
     Some(Emitter {
         shape,
+        outline: area.and_then(|area| outline(scene, area)),
+        light: number,
         power,
         surface: area.map(|area| area.shape),
         group: light.group,

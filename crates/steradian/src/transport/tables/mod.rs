@@ -1,11 +1,13 @@
 //! The scene as the batched loops read it: f32 tables in kernel coordinates, one entry a side of a part, one a light.
 
 mod emitters;
+mod outlines;
 mod sides;
 
 use std::sync::Arc;
 
 use emitters::{choose_by_power, emitters};
+pub(super) use outlines::{Facet, Outline, circumscribed};
 use sides::{Tints, emitting};
 
 use crate::light::{Beam, Kind};
@@ -79,6 +81,10 @@ pub(super) const NO_EMITTER: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub(super) struct Emitter {
     pub shape: EmitterShape,
+    /// The shape in f64, where radiance is the same everywhere.
+    pub outline: Option<Outline>,
+    /// Number of the light.
+    pub light: usize,
     /// Radiance, intensity, or irradiance facing the light, by kind.
     pub power: Tinted,
     /// The shape that emits.
@@ -221,11 +227,12 @@ impl<'a> Tables<'a> {
         Candidates {
             count: self.emitters.len(),
             all: false,
+            receiver: Receiver::Surface,
         }
     }
 
     /// Emitters for a meter; without `delta` those of lights without extent are left out.
-    pub fn for_meters(&self, delta: bool) -> Candidates {
+    pub fn for_meters(&self, delta: bool, receiver: Receiver) -> Candidates {
         let count = if delta {
             self.emitters.len()
         } else {
@@ -234,6 +241,7 @@ impl<'a> Tables<'a> {
         Candidates {
             count,
             all: count <= ALL_LIGHTS,
+            receiver,
         }
     }
 
@@ -253,6 +261,18 @@ impl<'a> Tables<'a> {
 pub(super) struct Candidates {
     pub count: usize,
     pub all: bool,
+    pub receiver: Receiver,
+}
+
+/// Where light is gathered.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub(super) enum Receiver {
+    /// At a vertex of a path.
+    Surface,
+    /// At a meter that takes light from the hemisphere of its normal, foreshortened.
+    Irradiance,
+    /// At a meter that takes light from the whole sphere.
+    Scalar,
 }
 
 fn color_lanes(scene: &Scene) -> ColorLanes {

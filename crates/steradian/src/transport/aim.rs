@@ -1,0 +1,241 @@
+//! Aiming at an emitter: directions in proportion to what they contribute to a receiver.
+//!
+//! | receiver | facets | sphere seen from outside | weight of a sample |
+//! |---|---|---|---|
+//! | of irradiance, at surfaces and meters | projected solid angle | projected solid angle | Ω = ∫ cosθ dω = πF |
+//! | of scalar irradiance | solid angle | cone | ω = ∫ dω |
+//!
+//! Of several facets one is chosen by its share. So every sample has the same weight, the integral over the whole emitter, which is at
+//! most π (4π): an emitter in full view is estimated without variance, and no direction that is sampled otherwise need look for it.
+
+use glam::Vec3;
+
+use super::columns::Place;
+use super::shaft::View;
+use super::tables::{Emitter, Facet, Outline, Tables};
+use super::towards::{clearance, cone, on_sphere};
+use crate::geometry::{Direction, Frame, Point, Vector};
+use crate::sampling::projected_cap::ProjectedCap;
+use crate::sampling::projected_polygon::ProjectedPolygon;
+use crate::sampling::spherical_rectangle::SphericalRectangle;
+use crate::sampling::spherical_triangle::SphericalTriangle;
+use crate::sampling::warp;
+
+/// An emitter as a receiver samples it.
+pub(super) struct Aim {
+    frame: Frame,
+    targets: Vec<Target>,
+    total: f64,
+}
+
+/// A sampler, with the sum of the weights up to and including it.
+struct Target {
+    sampler: Sampler,
+    sum: f64,
+}
+
+enum Sampler {
+    Projected(ProjectedPolygon, Plane),
+    Rectangle(SphericalRectangle, Plane),
+    Triangle(SphericalTriangle, Plane),
+    Cap(ProjectedCap, Ball),
+    Cone(f32, Ball),
+}
+
+/// The plane of a facet, from the receiver: its normal and its distance along it.
+#[derive(Copy, Clone)]
+struct Plane {
+    normal: Vector,
+    distance: f64,
+    size: f64,
+}
+
+#[derive(Copy, Clone)]
+struct Ball {
+    center: Vec3,
+    radius: f32,
+}
+
+/// Whether all directions to an emitter are sampled from a point by aiming at it: outside a sphere, or a few facets.
+#[inline(always)]
+pub(super) fn is_aimed_at(tables: &Tables<'_>, emitter: &Emitter, start: [f32; 3]) -> bool {
+    match emitter.outline {
+        Some(Outline::Facets(_)) => true,
+        Some(Outline::Sphere { center, radius }) => {
+            let axis = Vec3::from_array(tables.scene.surfaces().to_kernel(center))
+                - Vec3::from_array(start);
+            cone(axis, radius as f32, true).is_some()
+        }
+        Some(Outline::Disc(..)) | None => false,
+    }
+}
+
+impl Aim {
+    /// At an emitter that [`is_aimed_at`] accepts.
+    pub fn new(tables: &Tables<'_>, emitter: &Emitter, place: &Place, spherical: bool) -> Self {
+        let normal = Direction::new(Vector::from(place.normal.map(f64::from)));
+        let frame = Frame::from_normal(normal.unwrap_or(Direction::Z));
+        let mut aim = Self {
+            frame,
+            targets: vec![],
+            total: 0.0,
+        };
+        let receiver = tables.scene.surfaces().origin() + Vector::from(place.point.map(f64::from));
+        match &emitter.outline {
+            Some(Outline::Facets(facets)) => {
+                let clearance = if spherical {
+                    0.0
+                } else {
+                    f64::from(place.clearance)
+                };
+                let view = View::new(receiver, (!spherical).then(|| frame.normal()), clearance);
+                let seen = facets
+                    .iter()
+                    .filter(|facet| view.may_see(facet, emitter.two_sided));
+                seen.for_each(|facet| aim.at_facet(facet, receiver, spherical));
+            }
+            Some(Outline::Sphere { center, radius }) => {
+                let ball = Ball {
+                    center: Vec3::from_array(tables.scene.surfaces().to_kernel(*center)),
+                    radius: *radius as f32,
+                };
+                aim.at_sphere(*center - receiver, *radius, ball, place, spherical);
+            }
+            Some(Outline::Disc(..)) | None => {}
+        }
+        aim
+    }
+
+    /// What every sample contributes per unit of radiance; 0 if nothing is seen of the emitter.
+    pub fn weight(&self) -> f64 {
+        self.total
+    }
+
+    fn add(&mut self, sampler: Sampler, weight: f64) {
+        self.total += weight;
+        self.targets.push(Target {
+            sampler,
+            sum: self.total,
+        });
+    }
+
+    fn at_facet(&mut self, facet: &Facet, receiver: Point, spherical: bool) {
+        let corners: Vec<Vector> = facet
+            .corners
+            .iter()
+            .map(|corner| *corner - receiver)
+            .collect();
+        let size = (corners[2] - corners[0]).length();
+        let plane = Plane {
+            normal: facet.normal.to_vector(),
+            distance: facet.normal.dot(corners[0]),
+            size,
+        };
+        if !spherical {
+            let local: Vec<_> = corners
+                .iter()
+                .map(|corner| self.frame.vector_to_local(*corner))
+                .collect();
+            if let Some(polygon) = ProjectedPolygon::new(&local) {
+                let weight = polygon.projected_solid_angle().to_steradians();
+                self.add(Sampler::Projected(polygon, plane), weight);
+            }
+            return;
+        }
+        let edges = [1, corners.len() - 1].map(|k| corners[k] - corners[0]);
+        let rectangle = (corners.len() == 4).then(|| SphericalRectangle::new(corners[0], edges));
+        if let Some(rectangle) = rectangle.flatten() {
+            self.add(
+                Sampler::Rectangle(rectangle, plane),
+                rectangle.solid_angle().to_steradians(),
+            );
+            return;
+        }
+        for pair in corners[1..].windows(2) {
+            if let Some(triangle) = SphericalTriangle::new([corners[0], pair[0], pair[1]]) {
+                self.add(
+                    Sampler::Triangle(triangle, plane),
+                    triangle.solid_angle().to_steradians(),
+                );
+            }
+        }
+    }
+
+    fn at_sphere(&mut self, axis: Vector, radius: f64, ball: Ball, place: &Place, spherical: bool) {
+        if spherical {
+            let axis = ball.center - Vec3::from_array(place.point);
+            if let Some(one_minus_cos) = cone(axis, ball.radius, true) {
+                self.add(
+                    Sampler::Cone(one_minus_cos, ball),
+                    1.0 / f64::from(warp::cone_density(one_minus_cos)),
+                );
+            }
+        } else if let Some(cap) = ProjectedCap::new(self.frame.vector_to_local(axis), radius) {
+            self.add(
+                Sampler::Cap(cap, ball),
+                cap.projected_solid_angle().to_steradians(),
+            );
+        }
+    }
+
+    /// End of a shadow ray from `place`.
+    pub fn sample(&self, place: &Place, [u, v]: [f32; 2]) -> Option<Vec3> {
+        let wanted = f64::from(u) * self.total;
+        let index = self.targets.partition_point(|target| target.sum <= wanted);
+        let index = index.min(self.targets.len().checked_sub(1)?);
+        let before = if index == 0 {
+            0.0
+        } else {
+            self.targets[index - 1].sum
+        };
+        let target = &self.targets[index];
+        let rest = ((wanted - before) / (target.sum - before)).clamp(0.0, 1.0);
+        let numbers = [rest, f64::from(v)];
+        let vertex = Vec3::from_array(place.point);
+        match &target.sampler {
+            Sampler::Projected(polygon, plane) => plane.end(
+                place,
+                self.frame.to_world(polygon.sample(numbers)).to_vector(),
+            ),
+            Sampler::Rectangle(rectangle, plane) => plane.end(place, rectangle.sample(numbers)),
+            Sampler::Triangle(triangle, plane) => {
+                plane.end(place, triangle.sample(numbers).to_vector())
+            }
+            Sampler::Cap(cap, ball) => {
+                let direction = self.frame.to_world(cap.sample(numbers));
+                Some(on_sphere(
+                    ball.center,
+                    ball.radius,
+                    vertex,
+                    single(direction.to_vector()),
+                ))
+            }
+            Sampler::Cone(one_minus_cos, ball) => {
+                let axis = (ball.center - vertex).normalize();
+                let local = warp::cone(rest as f32, v, *one_minus_cos);
+                let direction = Vec3::from_array(super::scatter::to_world(axis.into(), local));
+                Some(on_sphere(ball.center, ball.radius, vertex, direction))
+            }
+        }
+    }
+}
+
+impl Plane {
+    /// Where a direction meets it, moved off it towards the receiver.
+    fn end(&self, place: &Place, direction: Vector) -> Option<Vec3> {
+        let way = self.distance / direction.dot(self.normal);
+        let span = direction * way;
+        let point = Vec3::from_array(place.point) + single(span);
+        let facing = if self.distance < 0.0 {
+            self.normal
+        } else {
+            -self.normal
+        };
+        let off = clearance(point.into(), (self.size + span.length()) as f32);
+        (way > 0.0 && way.is_finite()).then(|| point + single(facing) * off)
+    }
+}
+
+fn single(v: Vector) -> Vec3 {
+    Vec3::from_array(v.to_array().map(|x| x as f32))
+}
