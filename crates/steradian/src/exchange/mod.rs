@@ -25,6 +25,7 @@ mod grouping;
 mod matrix;
 mod pairs;
 mod polygon;
+pub mod radiosity;
 mod rays;
 mod row;
 mod uncertain;

@@ -1,6 +1,7 @@
 //! Matrices of scenes with known answers.
 
 mod pairs;
+mod radiosity;
 mod rays;
 
 use super::*;
