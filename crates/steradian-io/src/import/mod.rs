@@ -1,6 +1,7 @@
 //! Readers of other programs' files.
 
 mod alpha;
+pub mod boundaries;
 mod defaults;
 pub mod gltf;
 mod gltf_mesh;

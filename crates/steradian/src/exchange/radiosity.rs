@@ -236,7 +236,7 @@ impl<'a> Enclosure<'a> {
     }
 
     /// Σ_{j≠i} F_ij x_j.
-    fn from_others(&self, i: usize, x: &[f64]) -> f64 {
+    fn arriving_from_others(&self, i: usize, x: &[f64]) -> f64 {
         let others = self.rows[i]
             .entries
             .iter()
@@ -251,7 +251,8 @@ impl<'a> Enclosure<'a> {
             let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
             for i in 0..x.len() {
                 let rho = self.reflectance[i];
-                let new = (source[i] + rho * self.from_others(i, &x)) / (1.0 - rho * self.own[i]);
+                let new = (source[i] + rho * self.arriving_from_others(i, &x))
+                    / (1.0 - rho * self.own[i]);
                 change = change.max((new - x[i]).abs());
                 greatest = greatest.max(new.abs());
                 x[i] = new;
@@ -267,7 +268,7 @@ impl<'a> Enclosure<'a> {
     }
 
     fn irradiance(&self, i: usize, x: &[f64]) -> f64 {
-        self.from_others(i, x) + self.own[i] * x[i]
+        self.arriving_from_others(i, x) + self.own[i] * x[i]
     }
 
     /// (δF J)_i for one choice of signs.

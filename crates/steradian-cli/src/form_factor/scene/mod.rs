@@ -1,5 +1,7 @@
 //! The matrix of a scene.
 
+mod exchange;
+mod plot;
 mod sink;
 mod summary;
 
@@ -8,6 +10,7 @@ use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use steradian::estimation::{Plan, Silent, Stopping};
+use steradian::exchange::radiosity::{Surroundings, emitted};
 use steradian::exchange::{
     Facets, Grouping, Groups, MatrixOptions, MatrixSummary, Row, Sides, Technique, matrix,
 };
@@ -56,6 +59,22 @@ pub struct SceneArguments {
     /// Add the part of each surface's radiation that goes to the sky: its sky view factor
     #[arg(long, requires = "scene")]
     sky: bool,
+    /// Solve the radiative exchange between grey surfaces and print it instead of the factors. The CSV file has a heading with `surface` and
+    /// `temperature` (K), `exitance` (W/m2) or `net_flux` (W/m2, 0: insulated), of which each line has one, and perhaps `emissivity`
+    /// (else 1 less the material's reflectance); `*` stands for all surfaces that no other line names
+    #[arg(long, value_name = "BOUNDARY.csv", requires = "scene")]
+    exchange: Option<PathBuf>,
+    /// Temperature in K of what surrounds an open scene, for --exchange
+    #[arg(
+        long,
+        value_name = "KELVIN",
+        default_value_t = 0.0,
+        requires = "exchange"
+    )]
+    surroundings: f64,
+    /// Draw the matrix in colours, by the logarithm of the factors: FILE.svg
+    #[arg(long, value_name = "FILE", requires = "scene")]
+    plot: Option<PathBuf>,
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE", requires = "scene")]
     output: Option<PathBuf>,
@@ -159,63 +178,127 @@ pub fn run(
     let facets = Facets::new(&loaded.scene, arguments.sides.into())?;
     let groups = Groups::new(&facets, arguments.by.into());
     let technique = arguments.computation.technique(facets.count(), rel_error);
-    let plan = arguments.computation.plan(technique, rel_error);
     let options = MatrixOptions {
         technique,
         rest: arguments.sky,
         instruction_set: InstructionSet::detect(),
     };
+    let task = Task {
+        plan: arguments.computation.plan(technique, rel_error),
+        facets: &facets,
+        groups: &groups,
+        options,
+    };
     let report = FactorReport {
         names: groups.names().to_vec(),
         areas: groups.areas().to_vec(),
         scene_hash: loaded.hash,
-        seed: plan.seed,
+        seed: task.plan.seed,
         version: VERSION.to_owned(),
-        confidence: plan.confidence,
+        confidence: task.plan.confidence,
     };
     let format = Format::of(format, arguments.output.as_deref())?;
-    let mut sink = Sink::new(format, &report, arguments.output.as_deref())?;
-    let begin = Instant::now();
-    let mut watch = Watch::new()?;
-    let summary = matrix(
-        &facets,
-        &groups,
-        &options,
-        &plan,
-        &mut watch,
-        &mut |row: Row| {
-            sink.take(row);
-        },
-    )?;
-    let interrupted = watch.finish();
-    sink.finish(&summary)?;
-    let closed = is_closed(&facets, &options, &plan)?;
-    if format == Format::Table {
-        output::print(&summary::text(&summary, &report, facets.count(), closed))?;
-    }
-    remark(&format!("{:.1} s", begin.elapsed().as_secs_f64()));
-    Ok(outcome(&summary, closed, interrupted))
+    task.run(arguments, &report, format)
 }
 
-/// Whether no ray of a few from each facet leaves the scene or meets what is no facet.
-fn is_closed(facets: &Facets, options: &MatrixOptions, plan: &Plan) -> Result<bool, Failure> {
-    let whole = Groups::new(facets, Grouping::Material);
-    let options = MatrixOptions {
-        technique: Technique::Rays,
-        ..*options
-    };
-    let plan = Plan {
-        stop: Stopping::at_samples(RAYS_FOR_CLOSURE),
-        ..plan.clone()
-    };
-    let mut closed = true;
-    matrix(facets, &whole, &options, &plan, &mut Silent, &mut |row| {
-        let escaped = row.rest.map_or(0.0, |rest| {
-            rest.sky.value + rest.below.value + rest.other.value
-        });
-        closed &= escaped == 0.0;
-    })?;
-    Ok(closed)
+/// What is to be computed.
+struct Task<'a> {
+    facets: &'a Facets<'a>,
+    groups: &'a Groups,
+    options: MatrixOptions,
+    plan: Plan,
+}
+
+impl Task<'_> {
+    fn run(
+        &self,
+        arguments: &SceneArguments,
+        report: &FactorReport,
+        format: Format,
+    ) -> Result<Outcome, Failure> {
+        let boundaries = match &arguments.exchange {
+            Some(_) if format == Format::Npz => {
+                return Err(Failure::message(
+                    "--exchange is printed as table, json or csv",
+                ));
+            }
+            Some(file) => Some(exchange::surfaces(file, self.facets, self.groups)?),
+            None => None,
+        };
+        let keep = boundaries.is_some() || arguments.plot.is_some();
+        let silent = boundaries.is_some();
+        let mut sink = Sink::new(format, report, arguments.output.as_deref(), silent)?;
+        let mut rows = Vec::new();
+        let begin = Instant::now();
+        let mut watch = Watch::new()?;
+        let mut take = |row: Row| {
+            if keep {
+                rows.push(row.clone());
+            }
+            sink.take(row);
+        };
+        let summary = matrix(
+            self.facets,
+            self.groups,
+            &self.options,
+            &self.plan,
+            &mut watch,
+            &mut take,
+        )?;
+        let interrupted = watch.finish();
+        sink.finish(&summary)?;
+        let closed = self.is_closed()?;
+        if let Some(file) = &arguments.plot {
+            output::write(plot::svg(&rows, report)?.as_bytes(), Some(file))?;
+        }
+        if let Some(surfaces) = &boundaries {
+            let around = Surroundings {
+                exitance: (!closed).then(|| emitted(1.0, arguments.surroundings)),
+                reciprocal: self.options.technique == Technique::Pairs,
+            };
+            let found = exchange::solve(&rows, self.groups, surfaces, around)?;
+            let text = exchange::text(&found, report, format);
+            output::write(text.as_bytes(), arguments.output.as_deref())?;
+        } else if format == Format::Table {
+            output::print(&summary::text(
+                &summary,
+                report,
+                self.facets.count(),
+                closed,
+            ))?;
+        }
+        remark(&format!("{:.1} s", begin.elapsed().as_secs_f64()));
+        Ok(outcome(&summary, closed, interrupted))
+    }
+
+    /// Whether no ray of a few from each facet leaves the scene or meets what is no facet.
+    fn is_closed(&self) -> Result<bool, Failure> {
+        let whole = Groups::new(self.facets, Grouping::Material);
+        let options = MatrixOptions {
+            technique: Technique::Rays,
+            ..self.options
+        };
+        let stop = Stopping::at_samples(RAYS_FOR_CLOSURE);
+        let plan = Plan {
+            stop,
+            ..self.plan.clone()
+        };
+        let mut closed = true;
+        matrix(
+            self.facets,
+            &whole,
+            &options,
+            &plan,
+            &mut Silent,
+            &mut |row| {
+                let escaped = row.rest.map_or(0.0, |rest| {
+                    rest.sky.value + rest.below.value + rest.other.value
+                });
+                closed &= escaped == 0.0;
+            },
+        )?;
+        Ok(closed)
+    }
 }
 
 /// Fine if all is there, as precise as asked, and sums that should be 1 are, but for chance.

@@ -55,6 +55,7 @@ pub struct Sink<'a> {
     /// For formats that need all rows at once.
     rows: Vec<Row>,
     first: bool,
+    silent: bool,
     failure: Option<Failure>,
 }
 
@@ -67,14 +68,16 @@ enum Stream {
 }
 
 impl<'a> Sink<'a> {
-    /// Opens the file and writes what comes before the rows.
+    /// Opens the file and writes what comes before the rows; a silent sink writes nothing at all.
     pub fn new(
         format: Format,
         report: &'a FactorReport,
         file: Option<&'a Path>,
+        silent: bool,
     ) -> Result<Self, Failure> {
         let stream = match (format, file) {
             (Format::Table | Format::Npz, _) => Stream::None,
+            _ if silent => Stream::None,
             (_, None) => Stream::Standard,
             (_, Some(path)) => Stream::File(AtomicFile::create(path)?),
         };
@@ -85,6 +88,7 @@ impl<'a> Sink<'a> {
             stream,
             rows: Vec::new(),
             first: true,
+            silent,
             failure: None,
         };
         match format {
@@ -100,7 +104,7 @@ impl<'a> Sink<'a> {
         let written = match self.format {
             Format::Csv => self.write(&self.report.csv_row(&row)),
             Format::Json => self.write(&self.report.json_row(&row, self.first)),
-            Format::Table if self.report.names.len() > MOST_IN_TABLE => Ok(()),
+            Format::Table if self.silent || self.report.names.len() > MOST_IN_TABLE => Ok(()),
             Format::Table | Format::Npz => {
                 self.rows.push(row);
                 Ok(())

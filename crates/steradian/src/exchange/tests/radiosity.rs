@@ -84,7 +84,9 @@ fn plates_and_a_radiation_shield() {
     let shielded = exchange(&rows, &[1.0, 1.0, 2.0], &surfaces, PAIRS).unwrap();
     let half = 0.5 * (emitted(1.0, 500.0) - emitted(1.0, 300.0));
     assert!((fluxes(&shielded)[0] / half - 1.0).abs() < 1e-12);
-    let between = (0.5 * (500.0_f64.powi(4) + 300.0_f64.powi(4))).sqrt().sqrt();
+    let between = (0.5 * (500.0_f64.powi(4) + 300.0_f64.powi(4)))
+        .sqrt()
+        .sqrt();
     assert!((shielded.surfaces[2].temperature.unwrap().value - between).abs() < 1e-9);
     assert!(shielded.balance.value.abs() < 1e-9);
 }
