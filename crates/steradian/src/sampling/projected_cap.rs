@@ -167,8 +167,8 @@ impl ProjectedCap {
 
 /// Steps of the iteration; half of a bracket each would do.
 const MOST_STEPS: u32 = 60;
-/// Of y, relative to its range.
-const ACCURACY: f64 = 1e-11;
+/// Length of the last step of y, relative to its range. The error that it leaves is of the order of its square.
+const ACCURACY: f64 = 1e-6;
 
 /// ∫₀ʸ √(r² − t²) dt.
 fn under_circle(y: f64, r: f64) -> f64 {

@@ -198,8 +198,7 @@ impl Sector {
     fn solve(&self, inner: &Arc, wanted: f64, area: f64) -> [f64; 2] {
         let turn = cross(self.from, self.to);
         let at = |x: f64| [0, 1].map(|k| self.from[k] + x * (self.to[k] - self.from[k]));
-        let density =
-            |e: [f64; 2]| 0.5 * turn * (self.outer.at(unit(e)).0 - inner.at(unit(e)).0) / dot(e, e);
+        let density = |e: [f64; 2]| 0.5 * turn * (self.outer.at(e).0 - inner.at(e).0) / dot(e, e);
         let share = wanted / area;
         let [p, q] = [self.from, self.to].map(|e| density(e).max(0.0));
         let root = (p * p + share * (q * q - p * p)).max(0.0).sqrt();
@@ -242,8 +241,8 @@ impl Sector {
 
 /// Steps of the iteration; half of a bracket each would do.
 const MOST_STEPS: u32 = 60;
-/// Of x: the density of samples is off by less than this part.
-const ACCURACY: f64 = 1e-11;
+/// Length of the last step of x. The error that it leaves is of the order of its square.
+const ACCURACY: f64 = 1e-6;
 
 /// The plane of an edge, by its unit normal.
 #[derive(Copy, Clone, Debug)]
@@ -264,12 +263,10 @@ impl Arc {
         self.normal[0] * e[0] + self.normal[1] * e[1]
     }
 
-    /// r² and 1 − r² in a direction of the disc.
+    /// r² and 1 − r² in a direction of the disc, of any length.
     fn at(&self, e: [f64; 2]) -> (f64, f64) {
-        let (height, slope) = (
-            self.normal[2] * self.normal[2],
-            self.slope(e) * self.slope(e),
-        );
+        let (height, slope) = (self.normal[2] * self.normal[2], self.slope(e));
+        let (height, slope) = (height * dot(e, e), slope * slope);
         (height / (height + slope), slope / (height + slope))
     }
 
@@ -338,7 +335,7 @@ fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// Of length one; the middle of the disc stays.
 fn unit(e: [f64; 2]) -> [f64; 2] {
-    let length = libm::hypot(e[0], e[1]);
+    let length = dot(e, e).sqrt();
     if length > 0.0 {
         e.map(|x| x / length)
     } else {
