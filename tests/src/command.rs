@@ -41,8 +41,16 @@ fn build() -> PathBuf {
 /// # Panics
 /// If it cannot be started.
 pub fn steradian(arguments: &[&str]) -> Ran {
+    steradian_in(&root(), arguments)
+}
+
+/// `steradian` with arguments, run in a folder.
+///
+/// # Panics
+/// If it cannot be started.
+pub fn steradian_in(folder: &Path, arguments: &[&str]) -> Ran {
     let mut command = Command::new(program());
-    let output = command.current_dir(root()).args(arguments).output();
+    let output = command.current_dir(folder).args(arguments).output();
     Ran(output.unwrap_or_else(|error| panic!("{}: {error}", program().display())))
 }
 

@@ -54,8 +54,27 @@ pub fn bench(root: &Path, filter: &[&str]) -> Result<(), String> {
     succeed(cargo(root, &["bench", "--package", "steradian-benches", "--"]).args(filter))
 }
 
-/// The documentation, with broken links refused.
+/// The documentation, with broken links refused; the course, whose commands must print what its lessons say.
 pub fn docs(root: &Path) -> Result<(), String> {
+    let course = [
+        "test",
+        "--quiet",
+        "--package",
+        TESTS,
+        "--test",
+        "cli",
+        "course",
+    ];
+    succeed(&mut cargo(root, &course))?;
+    let pictures = [
+        "run",
+        "--quiet",
+        "--package",
+        "steradian-course",
+        "--",
+        "check",
+    ];
+    succeed(&mut cargo(root, &pictures))?;
     let arguments = [
         "doc",
         "--quiet",

@@ -3,8 +3,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::{
-    area, direction, energy, form_factor, help, inspect, measure, merge, render, solid_angle,
-    verify,
+    area, direction, energy, form_factor, help, inspect, learn, measure, merge, render,
+    solid_angle, verify,
 };
 
 /// Light in SI units: radiance, irradiance and flux in a scene, each number with its unit and an error bar.
@@ -53,6 +53,8 @@ pub enum Command {
     Direction(direction::Arguments),
     /// Integrate a flux over time, or turn the readings of an energy meter into fluxes
     Energy(energy::Arguments),
+    /// Learn radiometry in twelve lessons, from area to the reflection integral
+    Learn(learn::Arguments),
     /// Explain a subcommand, or `scene`: the keys of a scene file
     Help(help::Arguments),
 }

@@ -9,6 +9,7 @@ mod form_factor;
 mod help;
 mod inspect;
 mod interrupt;
+mod learn;
 mod load;
 mod measure;
 mod merge;
@@ -49,6 +50,7 @@ fn run(command: Command) -> Result<Outcome, Failure> {
         Command::SolidAngle(arguments) => solid_angle::run(&arguments),
         Command::Direction(arguments) => direction::run(&arguments),
         Command::Energy(arguments) => energy::run(&arguments),
+        Command::Learn(arguments) => learn::run(&arguments),
         Command::Help(arguments) => help::run(&arguments),
     }
 }
