@@ -14,6 +14,7 @@
 //! | `pdf` | ∫ pdf dω_i ≤ 1 | 1/sr |
 //! | `albedo` | ∫ ρ(d_e, d_i) cosθ_i dω_i ≤ 1: the directional-hemispherical reflectance | 1 |
 
+pub mod fresnel;
 mod lambertian;
 mod mirror;
 
@@ -88,4 +89,4 @@ impl Brdf {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

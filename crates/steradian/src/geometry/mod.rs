@@ -15,7 +15,7 @@ mod elliptic;
 mod foreshortening;
 mod frame;
 mod hull;
-mod gauss;
+pub(crate) mod gauss;
 mod point;
 mod polygon;
 mod spherical;

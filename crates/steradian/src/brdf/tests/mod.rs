@@ -1,5 +1,7 @@
 //! The contract of [`Brdf`], model by model.
 
+pub(crate) mod cases;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use proptest::prelude::*;
