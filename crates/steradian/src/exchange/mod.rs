@@ -28,6 +28,7 @@ mod polygon;
 pub mod radiosity;
 mod rays;
 mod row;
+pub mod smoothing;
 mod uncertain;
 
 pub use facets::{Extent, Facet, Facets, Sides};

@@ -31,10 +31,12 @@ pub fn svg(rows: &[Row], report: &FactorReport) -> Result<String, Failure> {
     let names: Vec<String> = report.names.iter().step_by(step).cloned().collect();
     let map = HeatMap {
         title: match step {
-            1 => "Form factors from row to column".to_owned(),
-            _ => format!("Form factors from row to column, means of {step} x {step} surfaces"),
+            1 => format!("Form factors from row to column (darkest: below 1e{lowest:.1} or 0)"),
+            _ => format!(
+                "Form factors, means of {step} x {step} (darkest: below 1e{lowest:.1} or 0)"
+            ),
         },
-        legend: format!("log10 F (0 and below {lowest:.1} as {lowest:.1})"),
+        legend: "log10 F".to_owned(),
         rows: names.clone(),
         columns: names,
         values: values

@@ -3,6 +3,7 @@
 mod pairs;
 mod radiosity;
 mod rays;
+mod smoothing;
 
 use super::*;
 use crate::estimation::{Plan, Silent, Stopping};
