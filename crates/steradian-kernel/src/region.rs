@@ -35,6 +35,7 @@ pub(crate) fn is_clear(
         return false;
     }
     let tree = accelerator.tree();
+    let mut clipper = Clipper::default();
     let mut open: Vec<usize> = (0..tree.nodes.len().min(1)).collect();
     while let Some(node) = open.pop() {
         let node = &tree.nodes[node];
@@ -47,7 +48,9 @@ pub(crate) fn is_clear(
                     open.push(index);
                     false
                 }
-                Below::Leaf(index) => leaf_blocks(&tree.leaves[index], planes, ignore),
+                Below::Leaf(index) => {
+                    leaf_blocks(&tree.leaves[index], planes, ignore, &mut clipper)
+                }
                 Below::Quadric(index) => quadric_blocks(index),
             };
             if blocked {
@@ -58,16 +61,16 @@ pub(crate) fn is_clear(
     true
 }
 
-fn leaf_blocks(leaf: &Leaf, planes: &[HalfSpace], ignore: &dyn Fn(u32) -> bool) -> bool {
+fn leaf_blocks(
+    leaf: &Leaf,
+    planes: &[HalfSpace],
+    ignore: &dyn Fn(u32) -> bool,
+    clipper: &mut Clipper,
+) -> bool {
     leaf.lanes().any(|(lane, number)| {
         let corners = leaf.triangle(lane, [0, 1, 2]);
-        !ignore(number)
-            && polygon_reaches(
-                corners
-                    .map(|[x, y, z]| [x.into(), y.into(), z.into(), 1.0])
-                    .to_vec(),
-                planes,
-            )
+        let corners = corners.map(|[x, y, z]| [x.into(), y.into(), z.into(), 1.0]);
+        !ignore(number) && clipper.reaches(&corners, planes)
     })
 }
 
@@ -75,7 +78,7 @@ fn reaches(quadric: &Quadric, planes: &[HalfSpace]) -> bool {
     match quadric {
         Quadric::Plane { point, normal } => plane_triangles(*point, *normal)
             .into_iter()
-            .any(|triangle| polygon_reaches(triangle.to_vec(), planes)),
+            .any(|triangle| Clipper::default().reaches(&triangle, planes)),
         bounded => !planes
             .iter()
             .any(|&[x, y, z, offset]| bounded.is_beyond([x, y, z], offset)),
@@ -107,29 +110,48 @@ fn excess(plane: &HalfSpace, point: &Homogeneous) -> f64 {
     terms.iter().sum::<f64>() - MARGIN * terms.iter().map(|term| term.abs()).sum::<f64>()
 }
 
-/// Whether a point at a finite distance is left.
-fn polygon_reaches(mut polygon: Vec<Homogeneous>, planes: &[HalfSpace]) -> bool {
-    for plane in planes {
-        polygon = clip(&polygon, plane);
-    }
-    polygon.iter().any(|point| point[3] > 0.0)
+/// Clips polygons, and keeps its memory between them.
+#[derive(Default)]
+struct Clipper {
+    polygon: Vec<Homogeneous>,
+    clipped: Vec<Homogeneous>,
 }
 
-/// The part of a polygon inside a half-space and its margin.
-fn clip(polygon: &[Homogeneous], plane: &HalfSpace) -> Vec<Homogeneous> {
-    let mut inside = Vec::with_capacity(polygon.len() + 1);
-    for (index, point) in polygon.iter().enumerate() {
-        let next = &polygon[(index + 1) % polygon.len()];
-        let (here, there) = (excess(plane, point), excess(plane, next));
-        if here <= 0.0 {
-            inside.push(*point);
+impl Clipper {
+    /// Whether a point at a finite distance is left of the triangle.
+    fn reaches(&mut self, triangle: &[Homogeneous; 3], planes: &[HalfSpace]) -> bool {
+        let beyond = |plane| triangle.iter().all(|point| excess(plane, point) > 0.0);
+        if planes.iter().any(beyond) {
+            return false;
         }
-        if (here <= 0.0) != (there <= 0.0) {
-            let s = here / (here - there);
-            inside.push([0, 1, 2, 3].map(|k| point[k] + s * (next[k] - point[k])));
+        self.polygon.clear();
+        self.polygon.extend(triangle);
+        for plane in planes {
+            self.clip(plane);
+            if self.polygon.is_empty() {
+                return false;
+            }
         }
+        self.polygon.iter().any(|point| point[3] > 0.0)
     }
-    inside
+
+    /// Leaves the part inside a half-space and its margin.
+    fn clip(&mut self, plane: &HalfSpace) {
+        self.clipped.clear();
+        for (index, point) in self.polygon.iter().enumerate() {
+            let next = &self.polygon[(index + 1) % self.polygon.len()];
+            let (here, there) = (excess(plane, point), excess(plane, next));
+            if here <= 0.0 {
+                self.clipped.push(*point);
+            }
+            if (here <= 0.0) != (there <= 0.0) {
+                let s = here / (here - there);
+                let crossing = [0, 1, 2, 3].map(|k| point[k] + s * (next[k] - point[k]));
+                self.clipped.push(crossing);
+            }
+        }
+        std::mem::swap(&mut self.polygon, &mut self.clipped);
+    }
 }
 
 /// Four sectors around `point`, each with two corners at infinity.

@@ -42,7 +42,7 @@ use crate::sampling::projected_polygon::ProjectedPolygon;
 /// Rays traced together.
 const BATCH: usize = 1024;
 /// Samples of each replicate in the pilot.
-const PILOT: u32 = 8;
+const PILOT: u32 = 2;
 /// Corners within this share of the size of a facet lie in its plane.
 const IN_PLANE: f64 = 1e-9;
 
