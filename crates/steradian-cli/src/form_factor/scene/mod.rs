@@ -11,6 +11,7 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 use steradian::estimation::{Plan, Silent, Stopping};
 use steradian::exchange::radiosity::{Surroundings, emitted};
+use steradian::exchange::smoothing::{Smoothed, smooth};
 use steradian::exchange::{
     Facets, Grouping, Groups, MatrixOptions, MatrixSummary, Row, Sides, Technique, matrix,
 };
@@ -72,6 +73,10 @@ pub struct SceneArguments {
         requires = "exchange"
     )]
     surroundings: f64,
+    /// Change the sampled factors of a closed scene as little as their errors allow so that rows add up to 1 and A1 F12 = A2 F21 hold
+    /// exactly, none below 0; how much was changed is printed
+    #[arg(long, requires = "scene")]
+    smooth: bool,
     /// Draw the matrix in colours, by the logarithm of the factors: FILE.svg
     #[arg(long, value_name = "FILE", requires = "scene")]
     plot: Option<PathBuf>,
@@ -225,7 +230,7 @@ impl Task<'_> {
             Some(file) => Some(exchange::surfaces(file, self.facets, self.groups)?),
             None => None,
         };
-        let keep = boundaries.is_some() || arguments.plot.is_some();
+        let keep = boundaries.is_some() || arguments.plot.is_some() || arguments.smooth;
         let silent = boundaries.is_some();
         let mut sink = Sink::new(format, report, arguments.output.as_deref(), silent)?;
         let mut rows = Vec::new();
@@ -235,7 +240,9 @@ impl Task<'_> {
             if keep {
                 rows.push(row.clone());
             }
-            sink.take(row);
+            if !arguments.smooth {
+                sink.take(row);
+            }
         };
         let summary = matrix(
             self.facets,
@@ -246,15 +253,25 @@ impl Task<'_> {
             &mut take,
         )?;
         let interrupted = watch.finish();
-        sink.finish(&summary)?;
         let closed = self.is_closed()?;
+        let smoothed = match arguments.smooth {
+            true => Some(self.smooth(&mut rows, closed && summary.complete)?),
+            false => None,
+        };
+        if smoothed.is_some() {
+            rows.iter().cloned().for_each(|row| sink.take(row));
+        }
+        sink.finish(&summary)?;
+        if let Some(smoothed) = &smoothed {
+            remark(&summary::of_smoothing(smoothed));
+        }
         if let Some(file) = &arguments.plot {
             output::write(plot::svg(&rows, report)?.as_bytes(), Some(file))?;
         }
         if let Some(surfaces) = &boundaries {
             let around = Surroundings {
                 exitance: (!closed).then(|| emitted(1.0, arguments.surroundings)),
-                reciprocal: self.options.technique == Technique::Pairs,
+                reciprocal: arguments.smooth || self.options.technique == Technique::Pairs,
             };
             let found = exchange::solve(&rows, self.groups, surfaces, around)?;
             let text = exchange::text(&found, report, format);
@@ -269,6 +286,15 @@ impl Task<'_> {
         }
         remark(&format!("{:.1} s", begin.elapsed().as_secs_f64()));
         Ok(outcome(&summary, closed, interrupted))
+    }
+
+    fn smooth(&self, rows: &mut [Row], is_enclosure: bool) -> Result<Smoothed, Failure> {
+        if !is_enclosure {
+            let message =
+                "--smooth needs a complete matrix of a closed scene, for it makes rows add up to 1";
+            return Err(Failure::message(message));
+        }
+        Ok(smooth(rows, self.groups.areas()))
     }
 
     /// Whether no ray of a few from each facet leaves the scene or meets what is no facet.

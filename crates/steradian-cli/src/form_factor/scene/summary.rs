@@ -1,5 +1,6 @@
 //! What is said about a matrix as a whole.
 
+use steradian::exchange::smoothing::Smoothed;
 use steradian::exchange::{MatrixSummary, Residual};
 use steradian_io::report::form_factors::FactorReport;
 use steradian_io::report::numbers::significant;
@@ -42,6 +43,19 @@ pub fn text(summary: &MatrixSummary, report: &FactorReport, facets: usize, close
         lines.push(format!("{} rows missed the tolerance", summary.missed));
     }
     lines.iter().map(|line| format!("{line}\n")).collect()
+}
+
+/// What smoothing changed.
+pub fn of_smoothing(smoothed: &Smoothed) -> String {
+    format!(
+        "smoothed: {} sampled factors changed by {} standard errors (rms), at most {}; by at most {} each; {} set to 0; sums are 1 within {}",
+        smoothed.factors,
+        significant(smoothed.rms_deviation, 2),
+        significant(smoothed.greatest_deviation, 2),
+        significant(smoothed.greatest_change, 2),
+        smoothed.zeroed,
+        significant(smoothed.residual, 1)
+    )
 }
 
 fn residual(residual: &Residual) -> String {
