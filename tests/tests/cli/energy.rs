@@ -161,6 +161,16 @@ fn a_meter_becomes_mean_fluxes_that_add_up_to_what_it_counted() {
     assert_eq!(found["rates"][1]["from"], 3600.0);
     let half = integral(&[&meter, "--derivative", "--from", "30min", "--to", "90min"]);
     assert!((number(&half, "/value") / 720e3 - 1.0).abs() < 1e-13);
+    let text = steradian(&["energy", &meter, "--derivative"]).fine();
+    assert!(
+        text.contains("meter, between its readings:") && text.contains("mean flux (W)"),
+        "{text}"
+    );
+    let told = steradian(&["energy", &meter]).error();
+    assert!(
+        told.contains("--derivative gives the mean fluxes"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -205,7 +215,7 @@ fn mistakes_are_told_with_their_place() {
         (vec!["energy", &good, "--unit", "lx h"], "no unit of energy"),
         (
             vec!["energy", &good, "--derivative"],
-            "\"W\" is a unit of flux",
+            "leave out --derivative",
         ),
         (
             vec!["energy", "--constant", "5", "--duration", "1s"],

@@ -7,6 +7,7 @@ use steradian::quantity::{
     Quantity, RadiantExposure, Time,
 };
 use steradian::time::{Rate, Rule, Series, TimeError};
+use steradian_io::diagnostic::Diagnostic;
 use steradian_io::files::DiskFiles;
 use steradian_io::import::series::{Column, RATES, TOTALS, read_series};
 
@@ -20,7 +21,8 @@ pub fn entries(path: &Path, arguments: &Arguments) -> Result<Vec<Entry>, Failure
     } else {
         &RATES
     };
-    let file = read_series(path, quantities, &DiskFiles::default()).map_err(Failure::Input)?;
+    let file = read_series(path, quantities, &DiskFiles::default())
+        .map_err(|problems| Failure::Input(hinted(problems, path, arguments.derivative)))?;
     let entry = |column: &Column| {
         let record = Record {
             path,
@@ -31,6 +33,28 @@ pub fn entries(path: &Path, arguments: &Arguments) -> Result<Vec<Entry>, Failure
         record.entry()
     };
     file.columns.iter().map(entry).collect()
+}
+
+/// The problems, with the remark that the file can be read with or without `--derivative`, if that is so.
+fn hinted(problems: Vec<Diagnostic>, path: &Path, derivative: bool) -> Vec<Diagnostic> {
+    let (others, hint) = if derivative {
+        (
+            &RATES,
+            "these are fluxes; leave out --derivative to add them up",
+        )
+    } else {
+        (
+            &TOTALS,
+            "if a meter has counted this, --derivative gives the mean fluxes between its readings",
+        )
+    };
+    if read_series(path, others, &DiskFiles::default()).is_err() {
+        return problems;
+    }
+    problems
+        .into_iter()
+        .map(|problem| problem.hint(hint))
+        .collect()
 }
 
 /// A column with its times.

@@ -24,6 +24,8 @@ pub struct Entry {
     quantity: &'static str,
     unit: &'static Unit,
     total: Amount,
+    /// What is integrated.
+    rate: &'static str,
     mean: Amount,
     least: Amount,
     greatest: Amount,
@@ -63,6 +65,7 @@ impl Entry {
             quantity: R::Total::NAME,
             unit,
             total: in_unit(energy, unit),
+            rate: R::NAME,
             mean: rate(summary.mean),
             least: rate(summary.least),
             greatest: rate(summary.greatest),
@@ -152,12 +155,12 @@ fn steps(entry: &Entry) -> String {
     if entry.steps.is_empty() {
         return String::new();
     }
-    let heading = format!("{} ({})", entry.name, entry.mean.unit);
+    let heading = format!("mean {} ({})", entry.rate, entry.mean.unit);
     let mut columns = Columns::new(["from (s)".to_owned(), "to (s)".to_owned(), heading]);
     for step in &entry.steps {
         columns.row(step.map(exact));
     }
-    format!("\n{columns}")
+    format!("\n{}, between its readings:\n{columns}", entry.name)
 }
 
 fn text(amount: Amount) -> String {
