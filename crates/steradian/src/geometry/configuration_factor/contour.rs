@@ -116,6 +116,22 @@ impl Circle {
         }
     }
 
+    /// The directions at the angle `theta` from the Z axis; azimuths count from X.
+    pub(super) fn of_latitude(theta: crate::quantity::Angle) -> Self {
+        Self {
+            center: Direction::Z * theta.cos(),
+            radius: theta.sin(),
+            u: Direction::X.to_vector(),
+            v: Direction::Y.to_vector(),
+            w: Direction::Z,
+        }
+    }
+
+    /// Whether it is as small as rounding on the unit sphere.
+    pub(super) fn is_point(&self) -> bool {
+        self.radius < f64::EPSILON
+    }
+
     /// The whole circle, beginning at its lowest point.
     pub(super) fn whole(self, normal: Direction) -> Piece {
         let top = self.top(normal);

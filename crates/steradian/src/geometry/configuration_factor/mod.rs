@@ -33,13 +33,19 @@
 mod contour;
 mod cylinder;
 mod disc;
+mod ellipse;
+mod patch;
 mod polygon;
 mod sphere;
+mod spherical_polygon;
 mod strip;
 
 pub use cylinder::of_cylinder;
 pub use disc::of_disc;
+pub use ellipse::of_ellipse;
+pub use patch::{of_cap, of_patch};
 pub(super) use polygon::above_horizon;
 pub use polygon::{of_polygon, projected_solid_angle_of_polygon};
 pub use sphere::of_sphere;
+pub use spherical_polygon::of_spherical_polygon;
 pub use strip::of_strip;

@@ -95,8 +95,8 @@ pub fn of_ellipse(observer: Point, center: Point, half_axes: [Vector; 2]) -> Sol
     of_cone(volume, [wide, narrow], m)
 }
 
-/// μ₁, μ₂ and m. The one least in magnitude, which rounding would spoil, is taken from their product V².
-fn semi_axes(u: Vector, v: Vector, c: Vector, volume: f64) -> [f64; 3] {
+/// μ₁, μ₂ and m; see the module. The one least in magnitude, which rounding would spoil, is taken from their product V².
+pub(in crate::geometry) fn semi_axes(u: Vector, v: Vector, c: Vector, volume: f64) -> [f64; 3] {
     let axis = Direction::new(c).unwrap_or(Direction::Z);
     // With the axis along the centre the matrix of a far or narrow ellipse is graded, and Jacobi keeps small eigenvalues.
     let frame = super::super::frame::Frame::from_normal(axis);

@@ -13,7 +13,7 @@
 //! | box, convex mesh | sums over faces; see [`of_box`], [`of_convex_mesh`] | |
 //!
 //! The patch of latitude and longitude is [`SphericalPatch`](super::SphericalPatch), the small patch
-//! [`SolidAngle::of_patch`].
+//! [`SolidAngle::of_patch`](crate::quantity::SolidAngle::of_patch).
 //!
 //! Flat objects have the same solid angle from both sides. As the observer comes to the plane, it tends to 0 outside the
 //! outline and to 2π inside. In the plane itself an object is edge-on and fills 0.
@@ -33,6 +33,7 @@ mod round;
 mod solid;
 mod spherical_polygon;
 
+pub(super) use ellipse::semi_axes;
 pub use ellipse::{of_disc, of_ellipse};
 pub use polygon::{of_polygon, of_polygon_above_horizon, of_triangle};
 pub use round::{of_cap, of_sphere};
