@@ -16,7 +16,7 @@ use super::polygon::ConvexPolygon;
 /// Which sides of surfaces take part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sides {
-    /// The fronts. What reaches a back is counted as [`other`](super::Row::other).
+    /// The fronts. What reaches a back is counted as [`Rest::other`](super::Rest::other).
     #[default]
     Front,
     /// The backs.

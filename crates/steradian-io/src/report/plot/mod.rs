@@ -4,8 +4,7 @@
 //! logarithmic axis) are refused, not left out. Texts name fonts and carry none, so the files are small; the same
 //! diagram gives the same bytes.
 //!
-//! The crates for plots were tried and not taken: what they would save are the ticks in `scale.rs` and the legend, and
-//! for that they bring tens of thousands of lines and output that differs between calls.
+//! The crate kuva 0.6 was tried and not taken: it would save the ticks in `scale.rs` and the legend, and its output differed between calls.
 
 mod axis;
 mod cut;
