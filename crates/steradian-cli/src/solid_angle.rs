@@ -1,32 +1,39 @@
-//! `steradian solid-angle`: how much of the view an object fills, in closed form.
+//! `steradian solid-angle`: how much of the view an object fills, in closed form where there is one.
 
 mod drawing;
 mod element;
+mod mesh;
 mod object;
 mod object_arguments;
 mod outline;
 mod projection;
 mod sweep;
 
+use std::f64::consts::PI;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
+use steradian::estimation::{Estimate, Method, Plan, Stopping};
 use steradian::geometry::{Direction, Point};
-use steradian::quantity::{Angle, ProjectedSolidAngle, SolidAngle};
+use steradian::quantity::{Angle, SolidAngle};
 use steradian_io::report::columns::Columns;
-use steradian_io::report::numbers::{exact, significant};
+use steradian_io::report::numbers::{estimate, exact, significant};
 
+use crate::engine::Threads;
+use crate::progress::Watch;
 use crate::status::{Failure, Outcome};
 use crate::{output, values};
 use element::Element;
+use mesh::Sampling;
 use object::Object;
 use object_arguments::ObjectArguments;
 use sweep::Sweep;
 
 /// Solid angle of an object seen from a point: the area of its projection on the unit sphere
 ///
-/// ω = ∫ cosθ dA / r², in steradians; all directions are 4π sr. All values are closed forms. Both sides of flat objects count. An
+/// ω = ∫ cosθ dA / r², in steradians; all directions are 4π sr. All values are closed forms, but for meshes that are open or not convex: these
+/// are estimated with rays, with a 95 % interval. Both sides of flat objects count. An
 /// observer in the plane of a flat object sees it edge-on, as nothing; one on the surface of a solid has the half of all
 /// directions that leads inside.
 ///
@@ -51,6 +58,14 @@ pub struct Arguments {
     /// Draw the object's projection on the unit sphere, or the curve of a sweep
     #[arg(long, value_name = "FILE.svg", conflicts_with = "element")]
     plot: Option<PathBuf>,
+    /// Where rays are needed: stop when the 95 % interval is within this part of the value
+    #[arg(long, value_name = "RATIO", value_parser = values::ratio, default_value = "0.1%")]
+    rel_error: f64,
+    /// Seed of the rays: the same seed gives the same bits
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    seed: u64,
+    #[command(flatten)]
+    threads: Threads,
     /// How to print
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -62,7 +77,7 @@ Examples:
   steradian solid-angle --from 0,0,1 --disc 2,0,0,0,0,1,1 --projected 0,0,-1
   steradian solid-angle --rectangle \"-1,-1,1 1,-1,1 1,1,1 -1,1,1\" --plot window.svg
   steradian solid-angle --patch 0:30deg,0:90deg
-  steradian solid-angle --mesh bunny.ply --from 0,0,5
+  steradian solid-angle --mesh bunny.ply --from 0,0,5 --rel-error 0.01%
   steradian solid-angle --element 0,0,2,0,0,-1,0.01
   steradian solid-angle --disc 0,0,2,0,0,1,0.5 --sweep tilt 0:90deg --plot tilt.svg";
 
@@ -108,60 +123,103 @@ fn swept(sweep: &Sweep, object: &Object, arguments: &Arguments) -> Result<Outcom
 
 fn measured(object: &Object, arguments: &Arguments) -> Result<Outcome, Failure> {
     let observer = arguments.from;
-    let solid_angle = object.solid_angle(observer)?;
+    let plan = Plan {
+        seed: arguments.seed,
+        stop: Stopping::at_rel_error(arguments.rel_error),
+        threads: arguments.threads.count(),
+        ..Plan::default()
+    };
+    let mut sampling = Sampling {
+        plan,
+        watch: Watch::new()?,
+    };
+    let solid_angle = object.solid_angle(observer, &mut sampling)?;
     let projected = match arguments.projected {
-        Some(normal) => Some(object.projected_solid_angle(observer, normal)?),
+        Some(normal) => Some(object.projected_solid_angle(observer, normal, &mut sampling)?),
         None => None,
     };
+    if sampling.watch.finish() {
+        return Err(Failure::message("stopped by Ctrl-C"));
+    }
     if let Some(file) = &arguments.plot {
-        let svg = drawing::draw(object, observer, solid_angle)?;
+        let svg = drawing::draw(object, observer, in_view(&solid_angle))?;
         output::write(svg.as_bytes(), Some(file))?;
     }
     output::print(&match arguments.format {
-        Format::Table => table(solid_angle, projected),
-        Format::Json => json(solid_angle, projected),
+        Format::Table => table(&solid_angle, projected.as_ref()),
+        Format::Json => json(&solid_angle, projected.as_ref()),
     })?;
-    Ok(Outcome::Fine)
+    let all = [Some(solid_angle), projected];
+    Ok(Outcome::fine_if(
+        all.iter().flatten().all(|found| found.converged),
+    ))
 }
 
-fn table(solid_angle: SolidAngle, projected: Option<ProjectedSolidAngle>) -> String {
+fn table(solid_angle: &Estimate, projected: Option<&Estimate>) -> String {
     let mut columns = Columns::new([
-        "solid angle",
-        &format!("{} sr", exact(solid_angle.to_steradians())),
+        "solid angle".to_owned(),
+        format!("{} sr", number(solid_angle)),
     ]);
+    let value = in_view(solid_angle);
     columns.row([
         "of the sphere",
-        &format!("{} %", significant(100.0 * fraction(solid_angle), 7)),
+        &format!("{} %", significant(100.0 * fraction(value), 7)),
     ]);
-    columns.row([
-        "square degrees",
-        &significant(square_degrees(solid_angle), 7),
-    ]);
+    columns.row(["square degrees", &significant(square_degrees(value), 7)]);
     if let Some(projected) = projected {
-        columns.row([
-            "projected",
-            &format!("{} sr", exact(projected.to_steradians())),
-        ]);
-        let factor = projected / ProjectedSolidAngle::HEMISPHERE;
-        columns.row(["configuration factor", &exact(factor)]);
+        columns.row(["projected", &format!("{} sr", number(projected))]);
+        let factor = projected.scaled(1.0 / PI);
+        columns.row(["configuration factor", &number(&factor)]);
     }
-    columns.to_string()
+    if solid_angle.method == Method::ClosedForm {
+        return columns.to_string();
+    }
+    format!("{columns}\nEstimated with rays; ± is half the 95 % interval.\n")
 }
 
-fn json(solid_angle: SolidAngle, projected: Option<ProjectedSolidAngle>) -> String {
-    let mut object = closed_form(solid_angle.to_steradians());
-    object["fraction_of_sphere"] = json!(fraction(solid_angle));
-    object["square_degrees"] = json!(square_degrees(solid_angle));
+/// Without its unit.
+fn number(found: &Estimate) -> String {
+    match found.method {
+        Method::ClosedForm => exact(found.value),
+        Method::Estimate => estimate(found),
+    }
+}
+
+fn json(solid_angle: &Estimate, projected: Option<&Estimate>) -> String {
+    let mut object = in_steradians(solid_angle);
+    let value = in_view(solid_angle);
+    object["fraction_of_sphere"] = json!(fraction(value));
+    object["square_degrees"] = json!(square_degrees(value));
     if let Some(projected) = projected {
-        object["projected"] = closed_form(projected.to_steradians());
-        object["configuration_factor"] = json!(projected / ProjectedSolidAngle::HEMISPHERE);
+        object["projected"] = in_steradians(projected);
+        object["configuration_factor"] = json!(projected.value / PI);
     }
     format!("{object:#}\n")
 }
 
+fn in_steradians(found: &Estimate) -> Value {
+    let Estimate {
+        value,
+        std_error,
+        method,
+        ..
+    } = found;
+    let mut object =
+        json!({ "value": value, "unit": "sr", "std_error": std_error, "method": method });
+    if *method == Method::Estimate {
+        object["interval"] = json!(found.interval);
+        object["converged"] = json!(found.converged);
+    }
+    object
+}
+
 /// A value in sr that has no error.
 fn closed_form(value: f64) -> Value {
-    json!({ "value": value, "unit": "sr", "std_error": 0.0, "method": "closed-form" })
+    in_steradians(&Estimate::closed_form(value))
+}
+
+fn in_view(found: &Estimate) -> SolidAngle {
+    SolidAngle::from_steradians(found.value)
 }
 
 fn fraction(solid_angle: SolidAngle) -> f64 {

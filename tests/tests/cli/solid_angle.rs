@@ -102,15 +102,21 @@ fn projected_values_stand_beside() {
     // A disc face on: R²/(R² + h²). A cube around nothing but the octant above its corner.
     let disc = json(&["--disc", "0,0,2,0,0,1,1", "--projected", "0,0,1"]);
     assert_close(disc["configuration_factor"].as_f64().unwrap(), 0.2, 1e-14);
-    let refused = steradian(&[
-        "solid-angle",
-        "--ellipse",
-        "0,0,2,1,0,0,0,2,0",
-        "--projected",
-        "0,0,1",
-    ])
-    .error();
-    assert!(refused.contains("--projected is known for"), "{refused}");
+    // An ellipse that is a disc; half of the sphere around the horizon; an octant.
+    for (option, object, expected) in [
+        ("--ellipse", "0,0,2,1,0,0,0,1,0", 0.2),
+        ("--cap", "90deg", 1.0),
+        ("--cap", "150deg", 1.0),
+        ("--patch", "0:90deg,0:90deg", 0.25),
+        ("--spherical-polygon", "1,0,0 0,1,0 0,0,1", 0.25),
+    ] {
+        let found = json(&[option, object, "--projected", "0,0,1"]);
+        assert_close(
+            found["configuration_factor"].as_f64().unwrap(),
+            expected,
+            1e-14,
+        );
+    }
 }
 
 #[test]
@@ -145,12 +151,53 @@ fn meshes_from_inside_and_outside() {
     );
     let front = value(&["--triangle", "1,0,0 0,1,0 0,0,1", "--from", "1,1,1"]);
     assert_close(value(&["--mesh", &mesh, "--from", "1,1,1"]), front, 1e-14);
-    let open = folder.write("o.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    assert!(
-        steradian(&["solid-angle", "--mesh", &open, "--from", "0.2,0.2,1"])
-            .error()
-            .contains("not closed")
+    let from = ["--from", "1,1,1", "--projected", "-1,-1,-1"];
+    let [whole, face] = [["--mesh", &mesh], ["--triangle", "1,0,0 0,1,0 0,0,1"]].map(|object| {
+        json(&[&object[..], &from].concat())["projected"]["value"]
+            .as_f64()
+            .unwrap()
+    });
+    assert_close(whole, face, 1e-14);
+}
+
+#[test]
+fn open_and_concave_meshes_are_estimated() {
+    let folder = Folder::new();
+    let triangle = folder.write("o.obj", "v -1 -1 1\nv 1 -1 1\nv 0 1 1\nf 1 2 3\n");
+    // Two triangles that meet in one corner, side by side as seen from below.
+    let v = folder.write(
+        "v.obj",
+        "v 1 -1 0\nv 1 1 0\nv 0 0 1\nv -1 -1 0\nv -1 1 0\nf 1 2 3\nf 5 4 3\n",
     );
+    for (mesh, parts) in [
+        (triangle, vec!["-1,-1,1 1,-1,1 0,1,1"]),
+        (v, vec!["1,-1,0 1,1,0 0,0,1", "-1,1,0 -1,-1,0 0,0,1"]),
+    ] {
+        let common = ["--from", "0.1,0.2,-2", "--projected", "0,0.1,1"];
+        let found = json(&[&["--mesh", &mesh, "--seed", "5"], &common[..]].concat());
+        assert_eq!(found["method"], "estimate");
+        let exact = parts
+            .iter()
+            .map(|part| json(&[&["--triangle", *part], &common[..]].concat()));
+        let exact: Vec<Value> = exact.collect();
+        for path in ["", "/projected"] {
+            let number = |object: &Value, key: &str| {
+                object
+                    .pointer(&format!("{path}/{key}"))
+                    .and_then(Value::as_f64)
+                    .unwrap()
+            };
+            let expected: f64 = exact.iter().map(|part| number(part, "value")).sum();
+            let z = (number(&found, "value") - expected) / number(&found, "std_error");
+            assert!(z.abs() < 4.0, "{path} {z} {found}");
+            assert!(number(&found, "std_error") < 5e-4 * expected);
+        }
+        let table = steradian(&["solid-angle", "--mesh", &mesh]).fine();
+        assert!(
+            table.contains('±') && table.contains("95 % interval"),
+            "{table}"
+        );
+    }
 }
 
 #[test]
@@ -191,6 +238,47 @@ fn pictures_are_drawn() {
 }
 
 #[test]
+fn every_kind_of_object_is_drawn() {
+    let folder = Folder::new();
+    let mesh = folder.write("t.obj", "v -1 -1 3\nv 1 -1 3\nv 0 1 3\nf 1 3 2\n");
+    let picture = folder.path("a.svg");
+    for [option, object] in [
+        ["--sphere", "1,0,3,1"],
+        ["--cap", "30deg"],
+        ["--cap", "120deg"],
+        ["--disc", "1,0,3,0,0,1,1"],
+        ["--ellipse", "0,0,2,1,0,0,0,2,0"],
+        ["--rectangle", "-1,-1,1 1,-1,1 1,1,1 -1,1,1"],
+        ["--triangle", "-1,-1,1 1,-1,1 0,1,1"],
+        ["--polygon", "-1,-1,1 1,-1,1 1,1,1 0,0,1 -1,1,1"],
+        ["--spherical-polygon", "1,0,0 0,1,0 0,0,1"],
+        ["--box", "1,-1,-1,3,1,1"],
+        ["--mesh", &mesh],
+        ["--patch", "20deg:60deg,0:90deg"],
+    ] {
+        steradian(&["solid-angle", option, object, "--plot", &picture]).fine();
+        let svg = std::fs::read_to_string(&picture).unwrap();
+        // Areas are paths of an opacity; each has some length.
+        let areas: Vec<&str> = svg
+            .split('<')
+            .filter(|tag| tag.contains("fill-opacity"))
+            .collect();
+        assert!(!areas.is_empty(), "{option}: nothing is filled");
+        assert!(
+            areas
+                .iter()
+                .all(|tag| tag.len() > 100 && !tag.contains("NaN")),
+            "{option}"
+        );
+        let (open, close) = (svg.matches('<').count(), svg.matches('>').count());
+        assert!(
+            open == close && svg.trim_end().ends_with("</svg>"),
+            "{option}"
+        );
+    }
+}
+
+#[test]
 fn bad_objects_are_told() {
     for (arguments, part) in [
         (&["--sphere", "0,0,2,-1"][..], "radius must be positive"),
@@ -203,7 +291,11 @@ fn bad_objects_are_told() {
             &["--sphere", "0,0,2,1", "--cap", "30deg"],
             "cannot be used with",
         ),
-        (&[], "--sphere"),
+        (
+            &[],
+            "one of --sphere, --cap, --disc, --ellipse, --rectangle, --triangle, --polygon, --spherical-polygon, --box, \
+             --mesh, --patch or --element",
+        ),
     ] {
         let told = steradian(&[&["solid-angle"], arguments].concat()).error();
         assert!(told.contains(part), "{arguments:?}: {told}");

@@ -22,8 +22,8 @@ const FILL: &str = "#d55e00";
 /// The sheet.
 pub fn draw(object: &Object, observer: Point, solid_angle: SolidAngle) -> Result<String, Failure> {
     let outlines = outline::outlines(object, observer)?;
-    // An outline bounds two areas, of which more than a hemisphere is the larger.
-    let is_rest = solid_angle > SolidAngle::HEMISPHERE;
+    // One outline bounds two areas, of which more than a hemisphere is the larger.
+    let is_rest = outlines.len() < 2 && solid_angle > SolidAngle::HEMISPHERE;
     let projection = Projection::towards(middle(&outlines, is_rest), CENTER, RADIUS);
     let mut sheet = Svg::new(SIZE[0], SIZE[1]);
     sheet.circle(CENTER, RADIUS, "#f5f8fb", Some(&Stroke::new(INK, 1.5)));

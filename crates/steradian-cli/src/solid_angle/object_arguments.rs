@@ -14,6 +14,9 @@ use super::object::Object;
 use crate::status::Failure;
 use crate::values::{self, numbers, points};
 
+const NO_OBJECT: &str = "name an object, such as --sphere 0,0,2,1: one of --sphere, --cap, --disc, --ellipse, --rectangle, \
+    --triangle, --polygon, --spherical-polygon, --box, --mesh, --patch or --element";
+
 /// Exactly one of these.
 #[derive(Args, Debug)]
 pub struct ObjectArguments {
@@ -44,7 +47,7 @@ pub struct ObjectArguments {
     /// A box along the axes by two opposite corners
     #[arg(long = "box", value_name = "X,Y,Z,X,Y,Z", value_parser = numbers::<6>, allow_hyphen_values = true, group = "what")]
     cuboid: Option<[f64; 6]>,
-    /// A closed mesh: from inside, or convex from anywhere (.obj, .ply, .stl, .gltf, .glb)
+    /// A mesh (.obj, .ply, .stl, .gltf, .glb): in closed form from inside and if convex, else by rays
     #[arg(long, value_name = "FILE", group = "what")]
     mesh: Option<PathBuf>,
     /// The directions between two angles θ from the Z axis and two azimuths φ: 0:30deg,0:90deg
@@ -107,10 +110,7 @@ impl ObjectArguments {
             }
             return polygon(&corners.0);
         }
-        let corners = self
-            .polygon
-            .as_ref()
-            .ok_or("name an object, such as --sphere 0,0,2,1")?;
+        let corners = self.polygon.as_ref().ok_or(NO_OBJECT)?;
         polygon(&corners.0)
     }
 }
