@@ -1,5 +1,6 @@
-//! `steradian verify`: scenes with closed-form answers, through the same reader and estimator as any other scene.
+//! `steradian verify`: closed forms, and scenes with closed-form answers, through the same reader and estimator as any other scene.
 
+mod formulas;
 mod suite;
 
 use std::path::Path;
@@ -21,6 +22,7 @@ use crate::progress::Watch;
 use crate::result::VERSION;
 use crate::status::{Failure, Outcome};
 use crate::values;
+use formulas::Formula;
 use suite::{Answer, SUITE, Verified};
 
 /// Deviation in standard errors that a sampled value may show; one correct value in about a thousand shows more.
@@ -30,12 +32,12 @@ const DOUBLE_ROUNDING: f64 = 1e-9;
 /// Relative standard deviation that rounding adds to a sampled value, whose paths are followed in single precision.
 const SINGLE_ROUNDING: f64 = 2e-7;
 
-/// Check this program on scenes whose answers are known in closed form
+/// Check this program on formulas and scenes whose answers are known in closed form
 ///
-/// The scenes are part of the program. Each is read and measured like any other; the table shows the value that theory
+/// Solid angles, form factors and energies are computed and set beside numbers found otherwise. The scenes are part of the program. Each is read and measured like any other; the table shows the value that theory
 /// gives, the value measured with its standard error, and their distance z in standard errors. A sampled value passes
 /// with |z| < 4, which a correct one fails once in about a thousand; a value by closed form passes when it agrees to
-/// rounding.
+/// rounding, and its relative deviation stands in place of z.
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -68,18 +70,19 @@ enum Format {
     Json,
 }
 
-/// One answer with what was measured.
+/// One answer with what was found.
 struct Check {
     name: String,
-    answer: &'static Answer,
+    quantity: &'static str,
     unit: String,
+    expected: f64,
     found: Estimate,
 }
 
 /// Measures every scene and compares.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let mut watch = Watch::new()?;
-    let mut checks = Vec::new();
+    let mut checks: Vec<Check> = formulas::all()?.into_iter().map(Check::from).collect();
     for verified in SUITE {
         checks.extend(measured(verified, arguments, &mut watch)?);
     }
@@ -138,27 +141,49 @@ impl Check {
             .ok_or_else(|| Failure::message(format!("{name}: there is no such reading")))?;
         Ok(Self {
             name,
-            answer,
+            quantity: answer.quantity,
             unit,
+            expected: answer.value,
             found,
         })
     }
 
+    /// Part of the answer by which the value differs from it.
+    fn deviation(&self) -> f64 {
+        (self.found.value - self.expected).abs() / self.expected.abs()
+    }
+
     /// Distance from the answer in standard errors, that of rounding included; none for a value by closed form.
     fn distance(&self) -> Option<f64> {
-        let rounding = SINGLE_ROUNDING * self.answer.value.abs();
+        let rounding = SINGLE_ROUNDING * self.expected.abs();
         let error = (self.found.std_error.powi(2) + rounding.powi(2)).sqrt();
         let sampled = self.found.method == Method::Estimate;
-        sampled.then(|| (self.found.value - self.answer.value) / error)
+        sampled.then(|| (self.found.value - self.expected) / error)
+    }
+
+    fn value(&self) -> String {
+        match self.found.method {
+            Method::ClosedForm => exact(self.found.value),
+            Method::Estimate => with_half_width(self.found.value, self.found.std_error),
+        }
     }
 
     fn passes(&self) -> bool {
         match self.distance() {
             Some(z) => z.abs() < MOST_STANDARD_ERRORS && self.found.converged,
-            None => {
-                (self.found.value - self.answer.value).abs()
-                    <= DOUBLE_ROUNDING * self.answer.value.abs()
-            }
+            None => self.deviation() <= DOUBLE_ROUNDING,
+        }
+    }
+}
+
+impl From<Formula> for Check {
+    fn from(formula: Formula) -> Self {
+        Self {
+            name: formula.name.to_owned(),
+            quantity: formula.quantity,
+            unit: formula.unit.to_owned(),
+            expected: formula.expected,
+            found: Estimate::closed_form(formula.found),
         }
     }
 }
@@ -168,20 +193,21 @@ fn table(checks: &[Check]) -> String {
         "scene: reading",
         "quantity",
         "expected",
-        "measured ± standard error",
-        "z",
+        "found ± standard error",
+        "z or deviation",
         "",
     ];
     let mut columns = Columns::new(headings).right_aligned(4);
     for check in checks {
         columns.row([
             check.name.clone(),
-            format!("{} ({})", check.answer.quantity, check.unit),
-            exact(check.answer.value),
-            with_half_width(check.found.value, check.found.std_error),
-            check
-                .distance()
-                .map_or_else(|| "exact".to_owned(), |z| format!("{z:.2}")),
+            format!("{} ({})", check.quantity, check.unit),
+            exact(check.expected),
+            check.value(),
+            check.distance().map_or_else(
+                || format!("{:.1e}", check.deviation()),
+                |z| format!("{z:.2}"),
+            ),
             if check.passes() { "ok" } else { "FAILED" }.to_owned(),
         ]);
     }
@@ -196,13 +222,14 @@ fn json(checks: &[Check], arguments: &Arguments) -> String {
     let check = |check: &Check| {
         json!({
             "name": check.name,
-            "quantity": check.answer.quantity,
+            "quantity": check.quantity,
             "unit": check.unit,
-            "expected": check.answer.value,
+            "expected": check.expected,
             "value": check.found.value,
             "std_error": check.found.std_error,
             "method": check.found.method,
             "z": check.distance(),
+            "deviation": check.deviation(),
             "ok": check.passes(),
         })
     };

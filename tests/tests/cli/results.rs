@@ -247,4 +247,11 @@ fn the_program_verifies_itself() {
         text.contains("agree with their closed forms") && !text.contains("FAILED"),
         "{text}"
     );
+    for part in [
+        "disc off its axis",
+        "all walls of a cube",
+        "flux of 5 W that decays",
+    ] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
 }
