@@ -192,7 +192,10 @@ fn open_and_concave_meshes_are_estimated() {
             assert!(z.abs() < 4.0, "{path} {z} {found}");
             assert!(number(&found, "std_error") < 5e-4 * expected);
         }
-        let table = steradian(&["solid-angle", "--mesh", &mesh]).fine();
+        let picture = folder.path("a.svg");
+        let table = steradian(&["solid-angle", "--mesh", &mesh, "--plot", &picture]).fine();
+        let svg = std::fs::read_to_string(&picture).unwrap();
+        assert!(svg.contains("fill-opacity"), "nothing is drawn");
         assert!(
             table.contains('±') && table.contains("95 % interval"),
             "{table}"

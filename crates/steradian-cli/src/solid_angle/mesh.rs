@@ -1,5 +1,6 @@
 //! Meshes: in closed form from inside and if convex, else with rays.
 
+use std::cmp::Ordering;
 use std::f64::consts::PI;
 
 use steradian::estimation::{Estimate, Plan};
@@ -104,9 +105,19 @@ fn view(triangles: &[[Point; 3]], observer: Point) -> Result<MeshView, Failure> 
     MeshView::new(triangles, observer).map_err(|error| Failure::message(error.to_string()))
 }
 
+fn by_coordinates(a: &[f64; 3], b: &[f64; 3]) -> Ordering {
+    let mut orders = a.iter().zip(b).map(|(x, y)| x.total_cmp(y));
+    orders
+        .find(|order| order.is_ne())
+        .unwrap_or(Ordering::Equal)
+}
+
 /// Whether no vertex is before the plane of any triangle, all of which face outwards or all inwards.
 fn is_convex(triangles: &[[Point; 3]]) -> bool {
-    let vertices = || triangles.iter().flatten().copied();
+    let mut vertices: Vec<[f64; 3]> = triangles.iter().flatten().map(|p| p.to_array()).collect();
+    vertices.sort_unstable_by(by_coordinates);
+    vertices.dedup();
+    let vertices = || vertices.iter().copied().map(Point::from);
     let slack = FLATNESS * Bounds::around(vertices()).diagonal().to_metres();
     let is_behind = |triangle: &[Point; 3], side: f64| {
         let [a, b, c] = *triangle;

@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use steradian::geometry::{Direction, Frame, Point, Spherical, SphericalPatch, Vector};
+use steradian::geometry::{
+    Direction, Frame, Point, Spherical, SphericalPatch, Vector, solid_angle,
+};
 use steradian::quantity::Angle;
 
 use super::object::{Object, faces, shows_front};
@@ -67,10 +69,13 @@ fn mesh(triangles: &[[Point; 3]], observer: Point) -> Result<Vec<Vec<Direction>>
             "a mesh of more than {MOST_TRIANGLES} triangles is not drawn"
         )));
     }
-    let turned = triangles
+    // Of a closed mesh seen from outside the fronts hide the backs.
+    let winding = solid_angle::winding_number(observer, triangles.iter().copied());
+    let has_backs = winding.abs() > 1e-9;
+    let drawn = triangles
         .iter()
-        .filter(|corners| shows_front(observer, &corners[..]));
-    Ok(turned
+        .filter(|corners| has_backs || shows_front(observer, &corners[..]));
+    Ok(drawn
         .map(|corners| straight(corners.map(|corner| corner - observer)))
         .collect())
 }
