@@ -108,7 +108,7 @@ pub fn conductor(cos_incident: f64, eta: f64, kappa: f64) -> Polarised {
 /// Hemispherical reflectance 2 ∫₀¹ R(µ) µ dµ of a dielectric: what it reflects of light that comes evenly from all of
 /// one side.
 ///
-/// For η > 1 Walsh's closed form (S. Q. Duntley, J. Opt. Soc. Am. 32 (1942) 61, eq. 18), else from its reverse:
+/// For η > 1 Walsh's closed form (S. Q. Duntley, J. Opt. Soc. Am. 32 (1942) 61), else from its reverse:
 /// (1 − R(η)) = η² (1 − R(1/η)). It loses digits towards η = 1: the error is below 1e-11 where |η − 1| > 1e-3.
 pub fn dielectric_average(eta: f64) -> f64 {
     if eta == 1.0 {

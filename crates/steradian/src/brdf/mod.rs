@@ -1,30 +1,60 @@
-//! Reflection of surfaces: the BRDF ρ(d_e, d_i) = dL(d_e) / dH(d_i), in 1/sr.
+//! Reflection and transmission of surfaces: the BRDF ρ(d_e, d_i) = dL(d_e) / dH(d_i), in 1/sr, and its like through the
+//! surface.
 //!
 //! Directions are local: the surface's normal is z, and both d_i (`wi`, towards the light) and d_e (`wo`, towards the
 //! viewer) point away from the surface. A value never contains the cosine: foreshortening belongs to the reflection
-//! integral L(d_e) = ∫ ρ(d_e, d_i) L(p, −d_i) cosθ_i dω_i alone. A mirror is no function in 1/sr, so a sampled
+//! integral L(d_e) = ∫ ρ(d_e, d_i) L(p, −d_i) |cosθ_i| dω_i alone. A mirror is no function in 1/sr, so a sampled
 //! direction is either [`Scatter::Finite`] or [`Scatter::Specular`].
+//!
+//! The normal points to the outside. Models that transmit light take either direction on either side; the others reflect
+//! on the outside only and are black from below.
 //!
 //! Every model keeps this contract:
 //!
 //! | function | law | unit |
 //! |---|---|---|
-//! | `evaluate` | ρ ≥ 0, ρ(a, b) = ρ(b, a), 0 if either direction lies below the surface | 1/sr |
-//! | `sample` | draws d_i with density `pdf`; ρ·cosθ_i/pdf is bounded | |
-//! | `pdf` | ∫ pdf dω_i ≤ 1 | 1/sr |
-//! | `albedo` | ∫ ρ(d_e, d_i) cosθ_i dω_i ≤ 1: the directional-hemispherical reflectance | 1 |
+//! | `evaluate` | ρ ≥ 0, ρ(a, b)/n_a² = ρ(b, a)/n_b²; 0 where the model neither reflects nor transmits | 1/sr |
+//! | `sample` | draws d_i with density `pdf`; ρ·\|cosθ_i\|/pdf is bounded, the model's doc says by what | |
+//! | `pdf` | ∫ pdf dω_i ≤ 1 over the whole sphere | 1/sr |
+//! | `albedo` | share of the light along d_e that is reflected: ∫ ρ cosθ_i dω_i over d_e's side | 1 |
+//! | `transmittance` | share that goes through: (n_i/n_e)² ∫ ρ \|cosθ_i\| dω_i over the other side | 1 |
+//! | `radiance_scale` | (n_e/n_i)² from one side to the other, 1 on the same side | 1 |
+//!
+//! albedo + transmittance ≤ 1. ρ relates radiances, which change by (n_e/n_i)² across an interface (n_e, n_i are the
+//! indices on the sides of d_e and d_i); shares of power do not. Whoever carries power instead of radiance, such as
+//! light tracing, divides by `radiance_scale`. Source: E. Veach, *Robust Monte Carlo Methods for Light Transport
+//! Simulation* (1997), §5.2, eq. 5.14.
 
+mod complex_index;
+mod diffuse_transmission;
+mod eon;
+mod error;
 pub mod fresnel;
 mod lambertian;
 mod mirror;
+mod oren_nayar;
+mod pane;
+mod phong;
+mod sampling;
+mod smooth_conductor;
+mod smooth_dielectric;
 
+pub use complex_index::ComplexIndex;
+pub use diffuse_transmission::DiffuseTransmission;
+pub use eon::EnergyPreservingOrenNayar;
+pub use error::ModelError;
 pub use lambertian::Lambertian;
 pub use mirror::Mirror;
+pub use oren_nayar::OrenNayar;
+pub use pane::Pane;
+pub use phong::Phong;
+pub use smooth_conductor::SmoothConductor;
+pub use smooth_dielectric::SmoothDielectric;
 
 use crate::geometry::Direction;
 use crate::quantity::Spectrum;
 
-/// A sampled direction of incidence.
+/// A sampled direction of incidence: reflected if it lies on the viewer's side of the surface, else transmitted.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub enum Scatter {
     /// From a density in solid angle.
@@ -36,46 +66,111 @@ pub enum Scatter {
         /// Density of `wi` in 1/sr.
         pdf: f64,
     },
-    /// The one direction that a smooth surface couples with d_e.
+    /// One of the directions that a smooth surface couples with d_e.
     Specular {
         /// d_i.
         wi: Direction,
-        /// L(d_e) / L(p, −d_i).
+        /// L(d_e) / L(p, −d_i), over the probability of choosing this direction.
         reflectance: Spectrum,
     },
 }
 
+impl Scatter {
+    /// A sample from a density; `None` if the density is 0.
+    fn finite(wi: Direction, value: Spectrum, pdf: f64) -> Option<Self> {
+        (pdf > 0.0).then_some(Self::Finite { wi, value, pdf })
+    }
+
+    /// d_i.
+    pub const fn wi(&self) -> Direction {
+        match self {
+            Self::Finite { wi, .. } | Self::Specular { wi, .. } => *wi,
+        }
+    }
+
+    /// By how much radiance from `wi` counts: ρ |cosθ_i|/pdf, or the factor of the smooth surface.
+    pub fn weight(&self) -> Spectrum {
+        match self {
+            Self::Finite { wi, value, pdf } => *value * (wi.z().abs() / pdf),
+            Self::Specular { reflectance, .. } => *reflectance,
+        }
+    }
+
+    /// Whether light goes through the surface on its way to `wo`.
+    pub fn is_transmitted(&self, wo: Direction) -> bool {
+        (self.wi().z() < 0.0) != (wo.z() < 0.0)
+    }
+}
+
 /// The closed set of models.
-#[derive(Copy, Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Brdf {
     /// ρ/π.
     Lambertian(Lambertian),
-    /// A smooth mirror.
+    /// A mirror of constant reflectance.
     Mirror(Mirror),
+    /// Rough diffuse reflection, single scattering.
+    OrenNayar(OrenNayar),
+    /// Rough diffuse reflection that keeps its energy.
+    EnergyPreservingOrenNayar(EnergyPreservingOrenNayar),
+    /// Diffuse reflection and transmission.
+    DiffuseTransmission(DiffuseTransmission),
+    /// Diffuse reflection and a glossy lobe, for teaching.
+    Phong(Phong),
+    /// Polished metal.
+    SmoothConductor(SmoothConductor),
+    /// A smooth interface of two dielectrics.
+    SmoothDielectric(SmoothDielectric),
+    /// A thin pane of glass.
+    Pane(Pane),
 }
 
 impl Brdf {
-    /// ρ(d_e, d_i) in 1/sr, without cosine; zero for a mirror.
+    /// ρ(d_e, d_i) in 1/sr, without cosine; zero for a smooth surface.
     pub fn evaluate(&self, wo: Direction, wi: Direction) -> Spectrum {
         match self {
             Self::Lambertian(model) => model.evaluate(wo, wi),
-            Self::Mirror(_) => Spectrum::ZERO,
+            Self::OrenNayar(model) => model.evaluate(wo, wi),
+            Self::EnergyPreservingOrenNayar(model) => model.evaluate(wo, wi),
+            Self::DiffuseTransmission(model) => model.evaluate(wo, wi),
+            Self::Phong(model) => model.evaluate(wo, wi),
+            Self::Mirror(_)
+            | Self::SmoothConductor(_)
+            | Self::SmoothDielectric(_)
+            | Self::Pane(_) => Spectrum::ZERO,
         }
     }
 
-    /// A direction of incidence from two uniform numbers; `None` when `wo` lies below the surface.
+    /// A direction of incidence from two uniform numbers; `None` where the model is black or the direction drawn lies
+    /// where nothing is scattered.
+    ///
+    /// Models that choose between parts use what is left of the first number again.
     pub fn sample(&self, wo: Direction, u: [f64; 2]) -> Option<Scatter> {
         match self {
             Self::Lambertian(model) => model.sample(wo, u),
+            Self::OrenNayar(model) => model.sample(wo, u),
+            Self::EnergyPreservingOrenNayar(model) => model.sample(wo, u),
+            Self::DiffuseTransmission(model) => model.sample(wo, u),
+            Self::Phong(model) => model.sample(wo, u),
             Self::Mirror(model) => model.sample(wo),
+            Self::SmoothConductor(model) => model.sample(wo),
+            Self::SmoothDielectric(model) => model.sample(wo, u),
+            Self::Pane(model) => model.sample(wo, u),
         }
     }
 
-    /// Density of [`sample`](Self::sample) in 1/sr; zero for a mirror.
+    /// Density of [`sample`](Self::sample) in 1/sr; zero for a smooth surface.
     pub fn pdf(&self, wo: Direction, wi: Direction) -> f64 {
         match self {
             Self::Lambertian(model) => model.pdf(wo, wi),
-            Self::Mirror(_) => 0.0,
+            Self::OrenNayar(model) => model.pdf(wo, wi),
+            Self::EnergyPreservingOrenNayar(model) => model.pdf(wo, wi),
+            Self::DiffuseTransmission(model) => model.pdf(wo, wi),
+            Self::Phong(model) => model.pdf(wo, wi),
+            Self::Mirror(_)
+            | Self::SmoothConductor(_)
+            | Self::SmoothDielectric(_)
+            | Self::Pane(_) => 0.0,
         }
     }
 
@@ -83,9 +178,44 @@ impl Brdf {
     pub fn albedo(&self, wo: Direction) -> Spectrum {
         match self {
             Self::Lambertian(model) => model.albedo(wo),
+            Self::OrenNayar(model) => model.albedo(wo),
+            Self::EnergyPreservingOrenNayar(model) => model.albedo(wo),
+            Self::DiffuseTransmission(model) => model.albedo(wo),
+            Self::Phong(model) => model.albedo(wo),
             Self::Mirror(model) => model.albedo(wo),
+            Self::SmoothConductor(model) => model.albedo(wo),
+            Self::SmoothDielectric(model) => model.albedo(wo),
+            Self::Pane(model) => model.albedo(wo),
         }
     }
+
+    /// Directional-hemispherical transmittance, a share of power.
+    pub fn transmittance(&self, wo: Direction) -> Spectrum {
+        match self {
+            Self::DiffuseTransmission(model) => model.transmittance(wo),
+            Self::SmoothDielectric(model) => model.transmittance(wo),
+            Self::Pane(model) => model.transmittance(wo),
+            _ => Spectrum::ZERO,
+        }
+    }
+
+    /// (n_e/n_i)²: radiance towards `wo` over radiance from `wi` of the same power, by the indices of their sides.
+    pub fn radiance_scale(&self, wo: Direction, wi: Direction) -> f64 {
+        let eta = match self {
+            Self::SmoothDielectric(model) => model.eta(),
+            _ => 1.0,
+        };
+        match (wo.z() < 0.0, wi.z() < 0.0) {
+            (true, false) => eta * eta,
+            (false, true) => 1.0 / (eta * eta),
+            _ => 1.0,
+        }
+    }
+}
+
+/// Rounded to single precision.
+fn to_spectrum(lanes: [f64; 4]) -> Spectrum {
+    Spectrum::from_lanes(lanes.map(|lane| lane as f32))
 }
 
 #[cfg(test)]
