@@ -31,6 +31,7 @@ mod eon;
 mod error;
 pub mod fresnel;
 mod lambertian;
+mod microfacet;
 mod mirror;
 mod oren_nayar;
 mod pane;
@@ -44,6 +45,7 @@ pub use diffuse_transmission::DiffuseTransmission;
 pub use eon::EnergyPreservingOrenNayar;
 pub use error::ModelError;
 pub use lambertian::Lambertian;
+pub use microfacet::{Facets, RoughConductor, RoughDielectric, Shadowing, Slopes};
 pub use mirror::Mirror;
 pub use oren_nayar::OrenNayar;
 pub use pane::Pane;
@@ -117,6 +119,10 @@ pub enum Brdf {
     DiffuseTransmission(DiffuseTransmission),
     /// Diffuse reflection and a glossy lobe, for teaching.
     Phong(Phong),
+    /// Rough metal.
+    RoughConductor(RoughConductor),
+    /// A rough interface of two dielectrics.
+    RoughDielectric(RoughDielectric),
     /// Polished metal.
     SmoothConductor(SmoothConductor),
     /// A smooth interface of two dielectrics.
@@ -134,6 +140,8 @@ impl Brdf {
             Self::EnergyPreservingOrenNayar(model) => model.evaluate(wo, wi),
             Self::DiffuseTransmission(model) => model.evaluate(wo, wi),
             Self::Phong(model) => model.evaluate(wo, wi),
+            Self::RoughConductor(model) => model.evaluate(wo, wi),
+            Self::RoughDielectric(model) => model.evaluate(wo, wi),
             Self::Mirror(_)
             | Self::SmoothConductor(_)
             | Self::SmoothDielectric(_)
@@ -152,6 +160,8 @@ impl Brdf {
             Self::EnergyPreservingOrenNayar(model) => model.sample(wo, u),
             Self::DiffuseTransmission(model) => model.sample(wo, u),
             Self::Phong(model) => model.sample(wo, u),
+            Self::RoughConductor(model) => model.sample(wo, u),
+            Self::RoughDielectric(model) => model.sample(wo, u),
             Self::Mirror(model) => model.sample(wo),
             Self::SmoothConductor(model) => model.sample(wo),
             Self::SmoothDielectric(model) => model.sample(wo, u),
@@ -167,6 +177,8 @@ impl Brdf {
             Self::EnergyPreservingOrenNayar(model) => model.pdf(wo, wi),
             Self::DiffuseTransmission(model) => model.pdf(wo, wi),
             Self::Phong(model) => model.pdf(wo, wi),
+            Self::RoughConductor(model) => model.pdf(wo, wi),
+            Self::RoughDielectric(model) => model.pdf(wo, wi),
             Self::Mirror(_)
             | Self::SmoothConductor(_)
             | Self::SmoothDielectric(_)
@@ -182,6 +194,8 @@ impl Brdf {
             Self::EnergyPreservingOrenNayar(model) => model.albedo(wo),
             Self::DiffuseTransmission(model) => model.albedo(wo),
             Self::Phong(model) => model.albedo(wo),
+            Self::RoughConductor(model) => model.albedo(wo),
+            Self::RoughDielectric(model) => model.albedo(wo),
             Self::Mirror(model) => model.albedo(wo),
             Self::SmoothConductor(model) => model.albedo(wo),
             Self::SmoothDielectric(model) => model.albedo(wo),
@@ -193,6 +207,7 @@ impl Brdf {
     pub fn transmittance(&self, wo: Direction) -> Spectrum {
         match self {
             Self::DiffuseTransmission(model) => model.transmittance(wo),
+            Self::RoughDielectric(model) => model.transmittance(wo),
             Self::SmoothDielectric(model) => model.transmittance(wo),
             Self::Pane(model) => model.transmittance(wo),
             _ => Spectrum::ZERO,
@@ -203,6 +218,7 @@ impl Brdf {
     pub fn radiance_scale(&self, wo: Direction, wi: Direction) -> f64 {
         let eta = match self {
             Self::SmoothDielectric(model) => model.eta(),
+            Self::RoughDielectric(model) => model.eta(),
             _ => 1.0,
         };
         match (wo.z() < 0.0, wi.z() < 0.0) {

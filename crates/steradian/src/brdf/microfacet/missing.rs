@@ -1,0 +1,163 @@
+//! The light that single scattering loses, by direction: what facets pass on to other facets.
+//!
+//! M(ω) = 1 − E(ω), with E the share of light along ω that leaves the surface after one facet. A lobe
+//! (1 − E(d_e))(1 − E(d_i))/(π M̄) gives that light back and is reciprocal, M̄ = (1/π) ∫ M cosθ dω.
+//!
+//! M is tabulated when a model is made: linear in √cosθ between 129 nodes, cubic (Catmull and Rom) in azimuth between 0
+//! and 90° where the surface is anisotropic. Source: C. Kulla and A. Conty, *Revisiting physically based shading at
+//! Imageworks*, SIGGRAPH 2017 course; after C. Kelemen and L. Szirmay-Kalos, Eurographics 2001.
+//!
+//! Directions are drawn from the azimuthal mean of M cosθ: a band of cosθ by its share, evenly in cos²θ inside it.
+
+use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, TAU};
+
+use crate::geometry::{Direction, gauss};
+
+/// Bands of cosθ.
+const BANDS: usize = 128;
+/// Intervals of azimuth between 0 and 90° of an anisotropic surface.
+const SECTORS: usize = 12;
+/// M̄ of a surface that loses nothing that matters, so that it can be divided by.
+const LEAST: f64 = 1e-12;
+
+/// M of every direction of one side.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MissingLight {
+    /// At the nodes of √cosθ, for each azimuth.
+    rows: Vec<[f64; BANDS + 1]>,
+    /// Share of ∫ M cosθ dω below the upper edge of each band.
+    cumulative: [f64; BANDS],
+    average: f64,
+}
+
+impl MissingLight {
+    /// From M of directions above the surface.
+    pub(super) fn new(isotropic: bool, missing: impl Fn(Direction) -> f64) -> Self {
+        let sectors = if isotropic { 0 } else { SECTORS };
+        let row = |sector: usize| {
+            let phi = FRAC_PI_2 * sector as f64 / SECTORS as f64;
+            std::array::from_fn(|node| {
+                // At the horizon the limit.
+                let cos = edge(node).max(1e-5);
+                let sin = (1.0 - cos * cos).sqrt();
+                missing(Direction::from_polar(sin, cos, phi)).clamp(0.0, 1.0)
+            })
+        };
+        let rows: Vec<_> = (0..=sectors).map(row).collect();
+        let shares = shares_of_bands(&rows);
+        let average: f64 = shares.iter().sum();
+        let mut sum = 0.0;
+        let cumulative = shares.map(|share| {
+            sum += share;
+            sum / average.max(LEAST)
+        });
+        Self {
+            rows,
+            cumulative,
+            average: average.max(LEAST),
+        }
+    }
+
+    /// M̄.
+    pub(super) fn average(&self) -> f64 {
+        self.average
+    }
+
+    /// M of a direction above the surface.
+    pub(super) fn at(&self, direction: Direction) -> f64 {
+        let place = direction.z().clamp(0.0, 1.0).sqrt() * BANDS as f64;
+        let node = (place as usize).min(BANDS - 1);
+        let part = place - node as f64;
+        let row = |row: &[f64; BANDS + 1]| row[node] + part * (row[node + 1] - row[node]);
+        if let [only] = self.rows.as_slice() {
+            return row(only);
+        }
+        let phi = libm::atan2(direction.y().abs(), direction.x().abs());
+        let place = phi / FRAC_PI_2 * SECTORS as f64;
+        let sector = (place as usize).min(SECTORS - 1);
+        // M is even about 0 and 90°.
+        let mirrored = |k: usize| row(&self.rows[SECTORS - SECTORS.abs_diff(k)]);
+        let points = [
+            row(&self.rows[sector.abs_diff(1)]),
+            mirrored(sector),
+            mirrored(sector + 1),
+            mirrored(sector + 2),
+        ];
+        catmull_rom(points, place - sector as f64).clamp(0.0, 1.0)
+    }
+
+    /// A direction above the surface.
+    pub(super) fn sample(&self, u: [f64; 2]) -> Direction {
+        let band = self
+            .cumulative
+            .partition_point(|&upper| upper <= u[0])
+            .min(BANDS - 1);
+        let (lower, share) = self.band(band);
+        let part = ((u[0] - lower) / share).clamp(0.0, 1.0);
+        let [from, to] = squares(band);
+        let square = from + part * (to - from);
+        Direction::from_polar((1.0 - square).max(0.0).sqrt(), square.sqrt(), TAU * u[1])
+    }
+
+    /// Its density.
+    pub(super) fn pdf(&self, direction: Direction) -> f64 {
+        let cos = direction.z();
+        if cos <= 0.0 {
+            return 0.0;
+        }
+        let band = ((cos.min(1.0).sqrt() * BANDS as f64) as usize).min(BANDS - 1);
+        let [from, to] = squares(band);
+        self.band(band).1 * cos * FRAC_1_PI / (to - from)
+    }
+
+    /// What lies below a band, and in it.
+    fn band(&self, band: usize) -> (f64, f64) {
+        let lower = if band == 0 {
+            0.0
+        } else {
+            self.cumulative[band - 1]
+        };
+        (lower, self.cumulative[band] - lower)
+    }
+}
+
+/// cosθ at a node.
+fn edge(node: usize) -> f64 {
+    let root = node as f64 / BANDS as f64;
+    root * root
+}
+
+/// cos²θ at the edges of a band.
+fn squares(band: usize) -> [f64; 2] {
+    [band, band + 1].map(|node| edge(node) * edge(node))
+}
+
+/// (1/π) ∫ M cosθ dω over each band: ∫ 2M µ dµ = ∫ 4 M t³ dt, of degree 4, and the trapezoidal rule in azimuth.
+fn shares_of_bands(rows: &[[f64; BANDS + 1]]) -> [f64; BANDS] {
+    let last = rows.len() - 1;
+    let weight = |sector: usize| match sector {
+        _ if last == 0 => 1.0,
+        sector if sector == 0 || sector == last => 0.5 / last as f64,
+        _ => 1.0 / last as f64,
+    };
+    let mean = |node: usize| -> f64 {
+        (0..rows.len())
+            .map(|sector| weight(sector) * rows[sector][node])
+            .sum()
+    };
+    std::array::from_fn(|band| {
+        let ends = [mean(band), mean(band + 1)];
+        let edges = [band, band + 1].map(|node| node as f64 / BANDS as f64);
+        gauss::integrate(3, edges, |t| {
+            let part = t * BANDS as f64 - band as f64;
+            4.0 * t * t * t * (ends[0] + part * (ends[1] - ends[0]))
+        })
+    })
+}
+
+/// The cubic through the two middle points whose slopes there are those of the chords across them.
+fn catmull_rom([a, b, c, d]: [f64; 4], t: f64) -> f64 {
+    let cubic = 3.0 * (b - c) + d - a;
+    let square = 2.0 * a - 5.0 * b + 4.0 * c - d;
+    b + 0.5 * t * (c - a + t * (square + t * cubic))
+}
