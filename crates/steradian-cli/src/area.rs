@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::json;
 use steradian::geometry::{Point, Transform, Vector};
 use steradian::quantity::Length;
@@ -13,7 +13,11 @@ use steradian_io::report::columns::Columns;
 use steradian_io::report::numbers::{exact, significant};
 
 use crate::status::{Failure, Outcome};
-use crate::{load, output, values};
+use crate::{
+    load,
+    output::{self, Format},
+    values,
+};
 
 /// Area of a shape, in closed form and by quadrature
 ///
@@ -42,16 +46,6 @@ Examples:
   steradian area disc 1 0.5
   steradian area polygon 0,0,0 2,0,0 2,1,0 0,1,0
   steradian area scenes/cornell-box.toml";
-
-/// Text, or one JSON object.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
-    /// For people
-    #[default]
-    Table,
-    /// For programs
-    Json,
-}
 
 /// Prints the areas.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {

@@ -6,7 +6,7 @@ use steradian::geometry::{Direction, Spherical, Vector};
 use steradian::quantity::Angle;
 use steradian_io::report::numbers::exact;
 
-use crate::output;
+use crate::output::{self, Format};
 use crate::status::{Failure, Outcome};
 use crate::values;
 
@@ -48,16 +48,6 @@ Examples:
   steradian direction --theta 30deg --phi 45deg
   steradian direction --vector 1,1,0
   steradian direction --vector 0,0,-2 --format json";
-
-/// Text, or one JSON object.
-#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
-enum Format {
-    /// For people
-    #[default]
-    Table,
-    /// For programs
-    Json,
-}
 
 /// Prints both forms of the direction.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {

@@ -10,7 +10,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use steradian::quantity::{Length, Time};
 use steradian::time::{Interval, Rule};
 
-use crate::output;
+use crate::output::{self, Format};
 use crate::status::{Failure, Outcome};
 use report::Entry;
 
@@ -103,16 +103,6 @@ impl From<BetweenRows> for Rule {
             BetweenRows::Held => Self::Held,
         }
     }
-}
-
-/// Text, or one JSON object.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
-    /// For people
-    #[default]
-    Table,
-    /// For programs
-    Json,
 }
 
 /// Integrates and prints.

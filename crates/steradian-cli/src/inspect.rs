@@ -7,14 +7,17 @@ mod triangles;
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use steradian::quantity::Length;
 use steradian::scene::Scene;
 use steradian::transport::unsampled;
 
 use crate::load::Loaded;
 use crate::status::{Failure, Outcome};
-use crate::{load, output};
+use crate::{
+    load,
+    output::{self, Format},
+};
 use contents::plural;
 use findings::Finding;
 use triangles::Triangles;
@@ -48,16 +51,6 @@ Examples:
   steradian inspect scenes/cornell-box.toml
   steradian inspect model.obj --weld 0.1mm --strict
   steradian inspect scenes/lamps-equal.toml --format json";
-
-/// Text, or one JSON object.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
-    /// For people
-    #[default]
-    Table,
-    /// For programs
-    Json,
-}
 
 /// What is known of a scene beyond the scene itself.
 struct Inspection<'a> {

@@ -3,9 +3,20 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use clap::ValueEnum;
 use steradian_io::report::write_atomically;
 
 use crate::status::Failure;
+
+/// Text, or one JSON object.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum Format {
+    /// For people
+    #[default]
+    Table,
+    /// For programs
+    Json,
+}
 
 /// Writes to the file, whole or not at all, or to standard output if there is none.
 pub fn write(bytes: &[u8], file: Option<&Path>) -> Result<(), Failure> {

@@ -12,7 +12,7 @@ mod sweep;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::{Value, json};
 use steradian::estimation::{Estimate, Method, Plan, Stopping};
 use steradian::geometry::{Direction, Point};
@@ -23,7 +23,10 @@ use steradian_io::report::numbers::{estimate, exact, significant};
 use crate::engine::Threads;
 use crate::progress::Watch;
 use crate::status::{Failure, Outcome};
-use crate::{output, values};
+use crate::{
+    output::{self, Format},
+    values,
+};
 use element::Element;
 use mesh::Sampling;
 use object::Object;
@@ -80,16 +83,6 @@ Examples:
   steradian solid-angle --mesh bunny.ply --from 0,0,5 --rel-error 0.01%
   steradian solid-angle --element 0,0,2,0,0,-1,0.01
   steradian solid-angle --disc 0,0,2,0,0,1,0.5 --sweep tilt 0:90deg --plot tilt.svg";
-
-/// Text, or one JSON object.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
-    /// For people
-    #[default]
-    Table,
-    /// For programs
-    Json,
-}
 
 /// Prints the solid angle, or the table asked for.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {

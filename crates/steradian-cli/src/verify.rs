@@ -5,7 +5,7 @@ mod suite;
 
 use std::path::Path;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::json;
 use steradian::estimation::{Estimate, Method, Plan, Stopping};
 use steradian::measurement::Reading;
@@ -17,7 +17,7 @@ use steradian_io::scene_file::read_scene_str;
 
 use crate::engine::Threads;
 use crate::load;
-use crate::output;
+use crate::output::{self, Format};
 use crate::progress::Watch;
 use crate::result::VERSION;
 use crate::status::{Failure, Outcome};
@@ -59,16 +59,6 @@ Examples:
   steradian verify
   steradian verify --rel-error 0.1% --seed 7
   steradian verify --format json";
-
-/// Text, or one JSON object.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
-    /// For people
-    #[default]
-    Table,
-    /// For programs
-    Json,
-}
 
 /// One answer with what was found.
 struct Check {
