@@ -5,6 +5,7 @@ mod course;
 mod energy;
 mod errors;
 mod form_factor;
+mod form_factor_scene;
 mod help;
 mod inspect;
 mod instruments;

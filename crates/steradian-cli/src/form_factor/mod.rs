@@ -30,14 +30,14 @@ use surfaces::Element;
 /// enclosure, and how well A1 F12 = A2 F21 holds where the two were found separately.
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
-#[command(group = ArgGroup::new("from").required(true))]
+#[command(group = ArgGroup::new("from"))]
 #[command(group = ArgGroup::new("to").conflicts_with("known"))]
 pub struct Arguments {
     /// All surfaces of a scene file (TOML), or of a file of another program (glTF, OBJ, PLY, STL)
     #[arg(group = "from", value_name = "SCENE", conflicts_with = "to")]
     scene: Option<PathBuf>,
-    /// From a surface element: its place and its normal
-    #[arg(long, group = "from", value_name = "X,Y,Z,NX,NY,NZ", value_parser = surfaces::element, allow_hyphen_values = true)]
+    /// From a surface element, its place and its normal, to a polygon, disc or sphere, or to all surfaces of a SCENE
+    #[arg(long, conflicts_with_all = ["polygon1", "disc1", "sphere1", "known"], value_name = "X,Y,Z,NX,NY,NZ", value_parser = surfaces::element, allow_hyphen_values = true)]
     element: Option<Element>,
     /// From a polygon, by its corners
     #[arg(long, group = "from", value_name = "X,Y,Z X,Y,Z …", value_parser = surfaces::polygon, allow_hyphen_values = true)]
@@ -91,6 +91,9 @@ Examples:
   All surfaces of a room, with what stands in it:
   steradian form-factor scenes/cornell-box.toml --by object
   steradian form-factor room.obj --rel-error 2% --format csv -o room.csv
+  What a point of its floor sees, and the sky over a place in a city:
+  steradian form-factor scenes/cornell-box.toml --element 0.3,0.3,0,0,0,1 --by object
+  steradian form-factor city.stl --element 10,20,0,0,0,1 --by material
   steradian form-factor city.stl --sky --samples 1e5 --method rays -o city.npz   # for scipy.sparse.load_npz";
 
 /// Prints the factors.
@@ -99,6 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         return scene::run(
             path,
             &arguments.of_scene,
+            arguments.element,
             arguments.rel_error,
             arguments.format,
         );
@@ -137,6 +141,9 @@ fn factors(arguments: &Arguments) -> Result<Factors, Failure> {
             let error = arguments.rel_error.unwrap_or(DEFAULT_REL_ERROR);
             pair::between(from, to, arguments.two_sided, error)
         }
+        (None, None, _) => Err(Failure::message(
+            "from what surface? Give a SCENE, --element, --polygon1, --disc1, --sphere1 or --known",
+        )),
         _ => Err(Failure::message(
             "to what surface? Give --polygon2, --disc2 or --sphere2",
         )),

@@ -86,6 +86,15 @@ fn grey_pixels(picture: &RadianceImage, quantity: &[f64], scale: f64) -> Pixels 
 }
 
 fn encode(pixels: &Pixels, picture: &RadianceImage, note: String) -> Result<Vec<u8>, ReportError> {
+    let facts = ("steradian", picture.facts_as_json()?);
+    encode_with_texts(pixels, [("Description", note), facts])
+}
+
+/// The bytes of a PNG with texts by keyword.
+pub fn encode_with_texts<const N: usize>(
+    pixels: &Pixels,
+    texts: [(&str, String); N],
+) -> Result<Vec<u8>, ReportError> {
     let failed = |error: png::EncodingError| ReportError::Encoding(error.to_string());
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(
@@ -96,12 +105,11 @@ fn encode(pixels: &Pixels, picture: &RadianceImage, note: String) -> Result<Vec<
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-    encoder
-        .add_itxt_chunk("Description".to_owned(), note)
-        .map_err(failed)?;
-    encoder
-        .add_itxt_chunk("steradian".to_owned(), picture.facts_as_json()?)
-        .map_err(failed)?;
+    for (keyword, text) in texts {
+        encoder
+            .add_itxt_chunk(keyword.to_owned(), text)
+            .map_err(failed)?;
+    }
     let mut writer = encoder.write_header().map_err(failed)?;
     writer
         .write_image_data(pixels.rgb.as_flattened())

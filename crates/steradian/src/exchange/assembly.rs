@@ -57,12 +57,7 @@ impl Draft {
     }
 
     fn row(self, from: usize) -> Row {
-        let entry = |(to, sum): (u32, IndependentSum)| match sum.total() {
-            exact if exact.std_error == 0.0 && exact.degrees.is_infinite() => {
-                Entry::exact(to, exact.value)
-            }
-            found => Entry::estimated(to, found),
-        };
+        let entry = |(to, sum): (u32, IndependentSum)| Entry::found(to, sum.total());
         let entries: Vec<Entry> = self.columns.into_iter().map(entry).collect();
         let sum = self.sum.unwrap_or_else(|| {
             let mut sum = IndependentSum::default();

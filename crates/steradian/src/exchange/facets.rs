@@ -137,6 +137,28 @@ impl<'a> Facets<'a> {
         Ok(facets)
     }
 
+    /// These facets only; the others still stand in the way, and what reaches them counts as [`Rest::other`](super::Rest::other).
+    ///
+    /// # Errors
+    /// If none is left.
+    pub fn only(mut self, keep: impl Fn(usize) -> bool) -> Result<Self, ExchangeError> {
+        let kept: Vec<usize> = (0..self.count()).filter(|&index| keep(index)).collect();
+        if kept.is_empty() {
+            return Err(ExchangeError::NoSurface);
+        }
+        let mut number = vec![NO_FACET; self.count()];
+        for (new, &old) in kept.iter().enumerate() {
+            number[old] = new as u32;
+        }
+        for facet in self.of_primitive.iter_mut().flatten() {
+            *facet = number.get(*facet as usize).copied().unwrap_or(NO_FACET);
+        }
+        self.list = kept.iter().map(|&old| self.list[old].clone()).collect();
+        self.lift = kept.iter().map(|&old| self.lift[old]).collect();
+        self.outlines = kept.iter().map(|&old| self.outlines[old].clone()).collect();
+        Ok(self)
+    }
+
     /// The scene.
     pub fn scene(&self) -> &'a Scene {
         self.scene

@@ -9,7 +9,7 @@ use super::effort::{Found, Rule};
 use super::facets::Facets;
 use super::grouping::Groups;
 use super::pairs::{PairCaster, PairWorkspace};
-use super::rays::{RayCaster, RayWorkspace, Traced};
+use super::rays::{RayCaster, RayWorkspace, Source, Traced};
 use super::row::{Entry, Row};
 use super::uncertain::Uncertain;
 use crate::estimation::crew::{Crew, Worker};
@@ -131,11 +131,7 @@ pub fn matrix(
     observer: &mut dyn Observer,
     sink: &mut (dyn FnMut(Row) + Send),
 ) -> Result<MatrixSummary, ExchangeError> {
-    plan.check()?;
-    if plan.shard.is_some() || plan.stop.time.is_some() || plan.stop.abs_error.is_some() {
-        let message = "a matrix takes a relative tolerance or a number of samples, and is not cut into shards";
-        return Err(ExchangeError::Plan(message));
-    }
+    check_plan(plan)?;
     let floor = (1.0 / groups.count() as f64).min(0.01);
     let (rule, set) = (Rule::new(plan, floor), options.instruction_set);
     let by_pairs = options.technique == Technique::Pairs;
@@ -164,6 +160,15 @@ pub fn matrix(
     let ledger = Assembly::new(facets, groups, by_pairs, sink, &mut summary);
     summary.complete = crew.run(ledger)?.is_continue();
     Ok(summary)
+}
+
+pub(super) fn check_plan(plan: &Plan) -> Result<(), ExchangeError> {
+    plan.check()?;
+    if plan.shard.is_some() || plan.stop.time.is_some() || plan.stop.abs_error.is_some() {
+        let message = "a matrix takes a relative tolerance or a number of samples, and is not cut into shards";
+        return Err(ExchangeError::Plan(message));
+    }
+    Ok(())
 }
 
 /// Finds what is asked of one facet.
@@ -211,10 +216,10 @@ impl Surveyor<'_> {
         let identity = combine(key_of_name("row"), survey.facet as u64);
         let rule = &self.pairs.rule;
         let (traced, samples, converged) = rule.sample(identity, PILOT, |attempt| {
-            let (facet, samples) = (survey.facet, attempt.samples);
+            let (source, samples) = (Source::Facet(survey.facet), attempt.samples);
             let traced = self
                 .rays
-                .row(facet, attempt.key, rule.replicates, samples, workspace);
+                .row(source, attempt.key, rule.replicates, samples, workspace);
             let factors = traced
                 .entries
                 .iter()

@@ -20,6 +20,7 @@
 
 mod assembly;
 mod effort;
+mod element;
 mod facets;
 mod grouping;
 mod matrix;
@@ -32,6 +33,7 @@ mod row;
 pub mod smoothing;
 mod uncertain;
 
+pub use element::{Element, factors_of_element};
 pub use facets::{Extent, Facet, Facets, Sides};
 pub use grouping::{Grouping, Groups};
 pub use matrix::{ExchangeError, MatrixOptions, MatrixSummary, Residual, Technique, matrix};

@@ -18,10 +18,11 @@
 
 use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
 
-use super::facets::{Facets, cosine_direction};
+use super::element::Element;
+use super::facets::{Facet, Facets, cosine_direction};
 use super::row::{Entry, Rest};
 use super::uncertain::Uncertain;
-use crate::geometry::Vector;
+use crate::geometry::{Direction, Point, Vector};
 use crate::sampling::block;
 use crate::sampling::hash::combine;
 
@@ -116,6 +117,48 @@ pub(super) struct Traced {
     pub rest: Rest,
 }
 
+/// Where rays come from.
+#[derive(Clone, Copy)]
+pub(super) enum Source {
+    /// Uniform points of a facet.
+    Facet(usize),
+    /// One place.
+    Element(Element),
+}
+
+/// The same, as rays start there.
+enum Start<'a> {
+    Facet {
+        facet: &'a Facet,
+        lift: f64,
+        middle: Point,
+        inwards: f64,
+    },
+    Element {
+        start: Point,
+        normal: Direction,
+    },
+}
+
+impl Start<'_> {
+    /// Where a ray starts and its direction; none in the port of a sphere.
+    fn ray(&self, [a, b, c, d]: [f64; 4]) -> Option<(Point, Vector)> {
+        match *self {
+            Self::Facet {
+                facet,
+                lift,
+                middle,
+                inwards,
+            } => {
+                let (point, normal) = facet.sample([a, b])?;
+                let start = point + (middle - point) * inwards + normal * lift;
+                Some((start, cosine_direction(normal, [c, d])))
+            }
+            Self::Element { start, normal } => Some((start, cosine_direction(normal, [a, b]))),
+        }
+    }
+}
+
 /// Sends rays from facets.
 #[derive(Clone, Copy)]
 pub(super) struct RayCaster<'a> {
@@ -129,17 +172,21 @@ impl RayCaster<'_> {
     /// A row from `samples` rays in each replicate.
     pub fn row(
         &self,
-        from: usize,
+        from: Source,
         key: u64,
         replicates: u32,
         samples: u32,
         workspace: &mut RayWorkspace,
     ) -> Traced {
-        let share = self.facets.list()[from].sampled_share();
+        let share = match from {
+            Source::Facet(facet) => self.facets.list()[facet].sampled_share(),
+            Source::Element(_) => 1.0,
+        };
+        let from = self.start_of(from);
         for replicate in 0..replicates {
             let key = combine(key, u64::from(replicate));
             for first in (0..samples).step_by(BATCH as usize) {
-                self.start(from, key, first..(first + BATCH).min(samples), workspace);
+                self.start(&from, key, first..(first + BATCH).min(samples), workspace);
                 self.trace(workspace);
             }
             workspace.close(1.0 / (share * f64::from(samples)));
@@ -148,24 +195,39 @@ impl RayCaster<'_> {
         workspace.take(replicates, 1.0 / (share * (total + 2.0)))
     }
 
+    fn start_of(&self, source: Source) -> Start<'_> {
+        match source {
+            Source::Facet(index) => {
+                let (facet, lift) = (&self.facets.list()[index], self.facets.lift(index));
+                let (middle, inwards) = facet.pull(lift);
+                Start::Facet {
+                    facet,
+                    lift,
+                    middle,
+                    inwards,
+                }
+            }
+            Source::Element(Element { position, normal }) => {
+                let start = position + normal * self.facets.surfaces().clearance();
+                Start::Element { start, normal }
+            }
+        }
+    }
+
     fn start(
         &self,
-        from: usize,
+        from: &Start<'_>,
         key: u64,
         indices: std::ops::Range<u32>,
         workspace: &mut RayWorkspace,
     ) {
-        let (facet, lift) = (&self.facets.list()[from], self.facets.lift(from));
-        let (middle, inwards) = facet.pull(lift);
         workspace.rays.clear();
         workspace.directions.clear();
         for index in indices {
-            let [a, b, c, d] = block::sample(key, index, 0).map(f64::from);
-            let Some((point, normal)) = facet.sample([a, b]) else {
+            let Some((start, direction)) = from.ray(block::sample(key, index, 0).map(f64::from))
+            else {
                 continue;
             };
-            let direction = cosine_direction(normal, [c, d]);
-            let start = point + (middle - point) * inwards + normal * lift;
             let origin = self.facets.surfaces().to_kernel(start);
             let towards = direction.to_array().map(|x| x as f32);
             workspace.rays.push(origin, towards, f32::INFINITY);
@@ -196,12 +258,7 @@ impl RayCaster<'_> {
     }
 
     /// Near enough to tell the sides of a sphere.
-    fn hit_point(
-        &self,
-        workspace: &RayWorkspace,
-        row: usize,
-        direction: Vector,
-    ) -> crate::geometry::Point {
+    fn hit_point(&self, workspace: &RayWorkspace, row: usize, direction: Vector) -> Point {
         let origin = workspace.rays.ray(row).origin.map(f64::from);
         let t = f64::from(workspace.hits.t[row]);
         self.facets.surfaces().origin() + Vector::from(origin) + direction * t

@@ -44,6 +44,14 @@ impl Entry {
         }
     }
 
+    /// A factor of either kind: exact if it has no error.
+    pub(super) fn found(to: u32, factor: Uncertain) -> Self {
+        match factor.std_error == 0.0 && factor.degrees.is_infinite() {
+            true => Self::exact(to, factor.value),
+            false => Self::estimated(to, factor),
+        }
+    }
+
     /// The factor with its error.
     pub fn factor(&self) -> Uncertain {
         Uncertain {

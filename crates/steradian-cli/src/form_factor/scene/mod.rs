@@ -1,5 +1,6 @@
 //! The matrix of a scene.
 
+mod element;
 mod exchange;
 mod plot;
 mod sink;
@@ -15,9 +16,11 @@ use steradian::exchange::smoothing::{Smoothed, smooth};
 use steradian::exchange::{
     Facets, Grouping, Groups, MatrixOptions, MatrixSummary, Row, Sides, Technique, matrix,
 };
+use steradian::quantity::Temperature;
 use steradian_io::report::form_factors::FactorReport;
 use steradian_kernel::InstructionSet;
 
+use super::surfaces::Element;
 use crate::engine::Threads;
 use crate::progress::Watch;
 use crate::result::VERSION;
@@ -48,6 +51,12 @@ pub struct SceneArguments {
         requires = "scene"
     )]
     by: By,
+    /// All factors: the default
+    #[arg(long, requires = "scene", conflicts_with = "between")]
+    matrix: bool,
+    /// Only the factors between these two rows of the matrix, by their names; all others still stand in the way
+    #[arg(long, num_args = 2, value_names = ["A", "B"], requires = "scene", conflicts_with = "exchange")]
+    between: Option<Vec<String>>,
     /// Sides of surfaces that take part
     #[arg(
         long,
@@ -65,19 +74,19 @@ pub struct SceneArguments {
     /// (else 1 less the material's reflectance); `*` stands for all surfaces that no other line names
     #[arg(long, value_name = "BOUNDARY.csv", requires = "scene")]
     exchange: Option<PathBuf>,
-    /// Temperature in K of what surrounds an open scene, for --exchange
+    /// Temperature of what surrounds an open scene, for --exchange
     #[arg(
         long,
-        value_name = "KELVIN",
-        default_value_t = 0.0,
+        value_name = "TEMPERATURE",
+        default_value = "0 K",
         requires = "exchange"
     )]
-    surroundings: f64,
+    surroundings: Temperature,
     /// Change the sampled factors of a closed scene as little as their errors allow so that rows add up to 1 and A1 F12 = A2 F21 hold
     /// exactly, none below 0; how much was changed is printed
     #[arg(long, requires = "scene")]
     smooth: bool,
-    /// Draw the matrix in colours, by the logarithm of the factors: FILE.svg
+    /// Draw the matrix in colours, by the logarithm of the factors: FILE.svg, or FILE.png without the names
     #[arg(long, value_name = "FILE", requires = "scene")]
     plot: Option<PathBuf>,
     /// Write to this file instead of standard output
@@ -176,12 +185,17 @@ impl Computation {
 pub fn run(
     scene: &Path,
     arguments: &SceneArguments,
+    element: Option<Element>,
     rel_error: Option<f64>,
     format: Option<Format>,
 ) -> Result<Outcome, Failure> {
     let loaded = load::surfaces(scene)?;
     let facets = Facets::new(&loaded.scene, arguments.sides.into())?;
-    let groups = Groups::new(&facets, arguments.by.into());
+    let (facets, groups) = taking_part(facets, arguments)?;
+    if let Some(element) = element {
+        let plan = arguments.computation.plan(Technique::Pairs, rel_error);
+        return element::run(&facets, &groups, element, &plan, arguments, format);
+    }
     let technique = arguments.computation.technique(facets.count(), rel_error);
     let options = MatrixOptions {
         technique,
@@ -204,6 +218,40 @@ pub fn run(
     };
     let format = Format::of(format, arguments.output.as_deref())?;
     task.run(arguments, &report, format)
+}
+
+/// The facets that take part, and their groups: all, or two.
+fn taking_part<'a>(
+    facets: Facets<'a>,
+    arguments: &SceneArguments,
+) -> Result<(Facets<'a>, Groups), Failure> {
+    let groups = Groups::new(&facets, arguments.by.into());
+    let Some(names) = &arguments.between else {
+        return Ok((facets, groups));
+    };
+    let number = |wanted: &String| {
+        let found = groups.names().iter().position(|name| name == wanted);
+        found.ok_or_else(|| Failure::message(unknown(wanted, groups.names())))
+    };
+    let wanted: Vec<usize> = names.iter().map(number).collect::<Result<_, _>>()?;
+    let facets = facets.only(|facet| wanted.contains(&(groups.of_facet()[facet] as usize)))?;
+    let groups = Groups::new(&facets, arguments.by.into());
+    Ok((facets, groups))
+}
+
+/// Most names that a message lists.
+const MOST_NAMES: usize = 12;
+
+fn unknown(wanted: &str, names: &[String]) -> String {
+    let listed: Vec<&str> = names.iter().take(MOST_NAMES).map(String::as_str).collect();
+    let more = match names.len().saturating_sub(MOST_NAMES) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!(
+        "no surface is called `{wanted}`; there are {}{more}",
+        listed.join(", ")
+    )
 }
 
 /// What is to be computed.
@@ -244,7 +292,7 @@ impl Task<'_> {
                 sink.take(row);
             }
         };
-        let summary = matrix(
+        let mut summary = matrix(
             self.facets,
             self.groups,
             &self.options,
@@ -252,6 +300,9 @@ impl Task<'_> {
             &mut watch,
             &mut take,
         )?;
+        if arguments.between.is_some() {
+            summary.closure = None;
+        }
         let interrupted = watch.finish();
         let closed = self.is_closed()?;
         let smoothed = match arguments.smooth {
@@ -266,11 +317,11 @@ impl Task<'_> {
             remark(&summary::of_smoothing(smoothed));
         }
         if let Some(file) = &arguments.plot {
-            output::write(plot::svg(&rows, report)?.as_bytes(), Some(file))?;
+            output::write(&plot::drawing(&rows, report, file)?, Some(file))?;
         }
         if let Some(surfaces) = &boundaries {
             let around = Surroundings {
-                exitance: (!closed).then(|| emitted(1.0, arguments.surroundings)),
+                exitance: (!closed).then(|| emitted(1.0, arguments.surroundings.to_kelvin())),
                 reciprocal: arguments.smooth || self.options.technique == Technique::Pairs,
             };
             let found = exchange::solve(&rows, self.groups, surfaces, around)?;

@@ -1,8 +1,10 @@
 //! The matrix as a picture.
 
+use std::path::Path;
+
 use steradian::exchange::Row;
 use steradian_io::report::form_factors::FactorReport;
-use steradian_io::report::plot::HeatMap;
+use steradian_io::report::plot::{HeatMap, PlotError};
 
 use crate::status::Failure;
 
@@ -11,8 +13,21 @@ const MOST_CELLS: usize = 240;
 /// Decades below the greatest factor that colours show.
 const DECADES: f64 = 5.0;
 
-/// The drawing of log₁₀ F.
-pub fn svg(rows: &[Row], report: &FactorReport) -> Result<String, Failure> {
+/// The drawing of log₁₀ F in the format that the file's name says.
+pub fn drawing(rows: &[Row], report: &FactorReport, file: &Path) -> Result<Vec<u8>, Failure> {
+    let map = map(rows, report);
+    let failed = |error: PlotError| Failure::Other(error.into());
+    match file.extension().and_then(|ending| ending.to_str()) {
+        Some("svg") => Ok(map.to_svg().map_err(failed)?.into_bytes()),
+        Some("png") => map.to_png().map_err(failed),
+        _ => Err(Failure::message(format!(
+            "{}: a drawing is an .svg or .png file",
+            file.display()
+        ))),
+    }
+}
+
+fn map(rows: &[Row], report: &FactorReport) -> HeatMap {
     let count = report.names.len();
     let step = count.div_ceil(MOST_CELLS).max(1);
     let values = blocks(rows, report, step);
@@ -29,7 +44,7 @@ pub fn svg(rows: &[Row], report: &FactorReport) -> Result<String, Failure> {
         }
     };
     let names: Vec<String> = report.names.iter().step_by(step).cloned().collect();
-    let map = HeatMap {
+    HeatMap {
         title: match step {
             1 => format!("Form factors from row to column (darkest: below 1e{lowest:.1} or 0)"),
             _ => format!(
@@ -43,8 +58,7 @@ pub fn svg(rows: &[Row], report: &FactorReport) -> Result<String, Failure> {
             .into_iter()
             .map(|row| row.into_iter().map(logarithm).collect())
             .collect(),
-    };
-    map.to_svg().map_err(|error| Failure::Other(error.into()))
+    }
 }
 
 /// The mean factor from a surface of a block of rows to a surface of a block of columns.

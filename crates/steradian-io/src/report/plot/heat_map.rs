@@ -3,6 +3,7 @@
 use super::PlotError;
 use super::axis::Axis;
 use super::frame::{Frame, INK, TICK_SIZE, width_of};
+use super::heat_pixels;
 use super::scale::Scale;
 use crate::report::svg::{Anchor, Stroke, Svg};
 
@@ -61,6 +62,16 @@ impl HeatMap {
         frame.edges(&mut sheet);
         self.colour_bar(&mut sheet, &frame, &scale);
         Ok(sheet.finish())
+    }
+
+    /// The bytes of a PNG: cells and legend, without names and title.
+    ///
+    /// # Errors
+    /// Those of [`to_svg`](Self::to_svg), and if there are too many pixels.
+    pub fn to_png(&self) -> Result<Vec<u8>, PlotError> {
+        self.check()?;
+        let scale = Scale::new(&Axis::new("", ""), self.extent());
+        heat_pixels::encode(self, &scale)
     }
 
     fn check(&self) -> Result<(), PlotError> {

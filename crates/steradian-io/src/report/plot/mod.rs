@@ -10,6 +10,7 @@ mod axis;
 mod cut;
 mod frame;
 mod heat_map;
+mod heat_pixels;
 mod line_plot;
 mod scale;
 
@@ -21,6 +22,9 @@ pub use line_plot::{LinePlot, Series};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlotError {
+    /// The drawing cannot be written as pixels.
+    #[error("cannot write the drawing: {0}")]
+    Encoding(String),
     /// There is nothing to draw.
     #[error("there are no numbers to plot")]
     Empty,

@@ -1,5 +1,6 @@
 //! Matrices of scenes with known answers.
 
+mod element;
 mod pairs;
 mod radiosity;
 mod rays;
@@ -56,7 +57,17 @@ fn rows(
     stop: Stopping,
 ) -> (Vec<Row>, MatrixSummary) {
     let facets = Facets::new(scene, Sides::Front).unwrap();
-    let groups = Groups::new(&facets, grouping);
+    rows_of(&facets, grouping, technique, stop)
+}
+
+/// The same for some facets.
+fn rows_of(
+    facets: &Facets,
+    grouping: Grouping,
+    technique: Technique,
+    stop: Stopping,
+) -> (Vec<Row>, MatrixSummary) {
+    let groups = Groups::new(facets, grouping);
     let options = MatrixOptions {
         technique,
         rest: false,
@@ -68,7 +79,7 @@ fn rows(
         ..Plan::default()
     };
     let mut rows = Vec::new();
-    let summary = matrix(&facets, &groups, &options, &plan, &mut Silent, &mut |row| {
+    let summary = matrix(facets, &groups, &options, &plan, &mut Silent, &mut |row| {
         rows.push(row);
     });
     (rows, summary.unwrap())

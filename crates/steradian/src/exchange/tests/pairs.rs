@@ -151,3 +151,29 @@ fn the_sum_over_groups_keeps_reciprocity_and_threads_do_not_matter() {
     }
     assert_eq!(rows[0].rest.unwrap().sky.value, 0.0);
 }
+
+/// Two facets of a room with a block have the same factors, to the bit, whether or not the others take part.
+#[test]
+fn facets_that_do_not_take_part_still_stand_in_the_way() {
+    let room = scene(vec![
+        ("room", cuboid([0.0; 3], [2.0, 3.0, 2.0], true)),
+        ("block", cuboid([0.5, 0.5, 0.2], [1.2, 1.5, 1.1], false)),
+    ]);
+    let samples = Stopping::at_samples(1 << 12);
+    let (all, _) = rows(&room, Grouping::Face, Technique::Rays, samples);
+    let two = Facets::new(&room, Sides::Front).unwrap();
+    let two = two.only(|index| index < 2).unwrap();
+    assert_eq!(
+        (two.name(0), two.name(1)),
+        ("room/0".to_owned(), "room/1".to_owned())
+    );
+    let (found, _) = rows_of(
+        &two,
+        Grouping::Face,
+        Technique::Rays,
+        Stopping::at_samples(1 << 12),
+    );
+    assert_eq!(found.len(), 2);
+    assert_eq!(found[0].entries, [all[0].entries[0]]);
+    assert!(two.only(|_| false).is_err());
+}
