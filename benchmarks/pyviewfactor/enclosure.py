@@ -1,6 +1,6 @@
 """Form factors of an obstructed room: steradian against pyViewFactor, on the same facets and the same machine.
 
-    python3 compare.py STERADIAN [N ...]        (N: cuts a metre, 72 N^2 facets; 1 and 3 by default)
+    python3 enclosure.py STERADIAN [N ...]        (N: cuts a metre, 72 N^2 facets; 1 and 3 by default)
 
 needs numpy, pyvista and pyviewfactor. Processor time is compared, of all threads, as wall time depends on what else runs. Errors are
 those of A_i F_ij, relative to their root mean square, against steradian's matrix at another seed and a tolerance of 0.1 %
@@ -90,7 +90,7 @@ def compare(program, n):
             if same is None and ours <= theirs:
                 same = (tolerance, taken, ours)
         if same:
-            print(f"at the same error or less: {cpu / same[1]:.0f} times as fast (tolerance {same[0]})")
+            print(f"at the same error or less: {cpu / same[1]:.1f} times as fast (tolerance {same[0]})")
 
 
 if __name__ == "__main__":
