@@ -47,7 +47,7 @@ pub enum Command {
     Area(area::Arguments),
     /// Form factors (view factors): between two surfaces, from an element, or of a whole scene with obstacles
     FormFactor(Box<form_factor::Arguments>),
-    /// Solid angle of an object seen from a point, in closed form
+    /// Solid angle of an object seen from a point
     SolidAngle(Box<solid_angle::Arguments>),
     /// Convert a direction between angles and a vector
     Direction(direction::Arguments),
