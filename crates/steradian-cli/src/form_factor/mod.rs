@@ -9,13 +9,13 @@ mod surfaces;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
+use steradian::exchange::Element;
 use steradian::geometry::form_factor::Surface;
 
 use crate::output;
 use crate::status::{Failure, Outcome};
 use report::Factors;
 use scene::Format;
-use surfaces::Element;
 
 /// Form factor from one surface to another, configuration factor from an element, or all form factors of a scene
 ///

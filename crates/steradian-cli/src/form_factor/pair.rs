@@ -1,9 +1,9 @@
 //! One surface or element to another surface.
 
+use steradian::exchange::Element;
 use steradian::geometry::form_factor::{self, Factor, Surface};
 
 use super::report::{Factors, Named};
-use super::surfaces::Element;
 use crate::status::Failure;
 
 /// The configuration factor.

@@ -1,17 +1,11 @@
 //! Surfaces on the command line.
 
+use steradian::exchange::Element;
 use steradian::geometry::form_factor::Surface;
 use steradian::geometry::{Direction, Point, Polygon, Vector};
 use steradian::quantity::Length;
 
 use crate::values;
-
-/// Where an element is and faces.
-#[derive(Clone, Copy, Debug)]
-pub struct Element {
-    pub position: Point,
-    pub normal: Direction,
-}
 
 /// `X,Y,Z,NX,NY,NZ`.
 pub fn element(text: &str) -> Result<Element, String> {

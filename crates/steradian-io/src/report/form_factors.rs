@@ -199,7 +199,8 @@ impl FactorReport {
     }
 }
 
-fn method(method: Method) -> &'static str {
+/// How a factor was found, as reports call it.
+pub fn method(method: Method) -> &'static str {
     match method {
         Method::ClosedForm => "closed-form",
         Method::Estimate => "estimate",

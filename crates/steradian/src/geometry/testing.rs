@@ -2,7 +2,10 @@
 
 use proptest::prelude::*;
 
-use super::{Direction, Vector};
+use std::f64::consts::TAU;
+
+use super::{Direction, Frame, Spherical, Vector};
+use crate::quantity::Angle;
 
 /// Whether two numbers differ by at most `tolerance`.
 pub(crate) fn close(found: f64, expected: f64, tolerance: f64) -> bool {
@@ -19,6 +22,16 @@ pub(crate) fn any_direction() -> impl Strategy<Value = Direction> {
 /// Vectors in a box of side `2 size` around the origin.
 pub(crate) fn any_vector(size: f64) -> impl Strategy<Value = Vector> {
     prop::array::uniform3(-size..size).prop_map(Vector::from)
+}
+
+/// Corners at one angle from `pole` in radians, counter-clockwise.
+pub(crate) fn ring(pole: Direction, half_angle: f64, corners: u32) -> Vec<Direction> {
+    let frame = Frame::from_normal(pole);
+    let corner = |index| {
+        let phi = Angle::from_radians(TAU * f64::from(index) / f64::from(corners));
+        frame.to_world(Spherical::new(Angle::from_radians(half_angle), phi).to_direction())
+    };
+    (0..corners).map(corner).collect()
 }
 
 #[test]

@@ -2,10 +2,12 @@
 
 use std::f64::consts::PI;
 
+use anyhow::Context;
 use steradian::geometry::{
     Direction, Point, Polygon, PolygonError, configuration_factor, form_factor, solid_angle,
 };
 use steradian::quantity::{Angle, Length};
+use steradian_course::LESSONS;
 use steradian_io::report::plot::{Axis, LinePlot, Series};
 
 use crate::view::spherical;
@@ -72,14 +74,21 @@ pub fn patch() -> Picture {
     .to_svg()?)
 }
 
+/// The rows of a lesson's file, without the heading.
+fn record(lesson: usize, file: &str) -> anyhow::Result<Vec<[f64; 2]>> {
+    let mut files = LESSONS[lesson - 1].files.iter();
+    let (_, text) = files
+        .find(|(name, _)| *name == file)
+        .with_context(|| format!("lesson {lesson} has no {file}"))?;
+    let row = |line: &str| -> anyhow::Result<[f64; 2]> {
+        let (x, y) = line.split_once(',').context("two numbers in a row")?;
+        Ok([x.parse()?, y.parse()?])
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
 pub fn energy() -> Picture {
-    let flux = [
-        [0.0, 0.0],
-        [0.5, 40.0],
-        [8.0, 40.0],
-        [9.0, 10.0],
-        [12.0, 10.0],
-    ];
+    let flux = record(7, "lamp.csv")?;
     Ok(LinePlot::new(
         "The area under the line is the energy",
         Axis::new("time", "h").from_to(0.0, 12.0).tick_every(1.0),
@@ -90,13 +99,7 @@ pub fn energy() -> Picture {
 }
 
 pub fn flux() -> Picture {
-    let energy = [
-        [0.0, 0.0],
-        [1.0, 36.0],
-        [3.0, 108.0],
-        [4.0, 120.0],
-        [6.0, 120.0],
-    ];
+    let energy = record(8, "meter.csv")?;
     Ok(LinePlot::new(
         "The slope of the line is the flux",
         Axis::new("time", "h").from_to(0.0, 6.0).tick_every(1.0),

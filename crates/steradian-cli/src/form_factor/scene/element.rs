@@ -2,12 +2,12 @@
 
 use serde_json::{Value, json};
 use steradian::estimation::{Method, Plan};
-use steradian::exchange::{self, Facets, Groups, Row, Uncertain, factors_of_element};
+use steradian::exchange::{Element, Entry, Facets, Groups, Row, Uncertain, factors_of_element};
 use steradian_io::report::columns::Columns;
+use steradian_io::report::form_factors::method;
 use steradian_io::report::numbers::{exact, with_half_width};
 
 use super::{Format, SceneArguments};
-use crate::form_factor::surfaces::Element;
 use crate::output;
 use crate::status::{Failure, Outcome};
 
@@ -25,10 +25,6 @@ pub fn run(
             "--exchange, --smooth and --plot are about whole matrices, not about an --element";
         return Err(Failure::message(message));
     }
-    let element = exchange::Element {
-        position: element.position,
-        normal: element.normal,
-    };
     let row = factors_of_element(facets, groups, element, plan)?;
     let lines = lines(&row, groups);
     let text = match Format::of(format, arguments.output.as_deref())? {
@@ -54,7 +50,7 @@ struct Line {
 
 /// The surfaces, then what goes elsewhere, as far as anything does.
 fn lines(row: &Row, groups: &Groups) -> Vec<Line> {
-    let surface = |entry: &exchange::Entry| Line {
+    let surface = |entry: &Entry| Line {
         to: groups.names()[entry.to as usize].clone(),
         factor: entry.factor(),
         method: entry.method,
@@ -82,16 +78,9 @@ fn table(lines: &[Line], plan: &Plan) -> String {
             Method::ClosedForm => exact(line.factor.value),
             _ => with_half_width(line.factor.value, line.factor.half_width(plan.confidence)),
         };
-        columns.row([line.to.clone(), number, method(line).to_owned()]);
+        columns.row([line.to.clone(), number, method(line.method).to_owned()]);
     }
     columns.to_string()
-}
-
-fn method(line: &Line) -> &'static str {
-    match line.method {
-        Method::ClosedForm => "closed-form",
-        _ => "estimate",
-    }
 }
 
 fn json_text(lines: &[Line], row: &Row) -> String {
@@ -101,7 +90,7 @@ fn json_text(lines: &[Line], row: &Row) -> String {
             "value": line.factor.value,
             "unit": "1",
             "std_error": line.factor.std_error,
-            "method": method(line),
+            "method": method(line.method),
         })
     };
     let object = json!({
@@ -120,7 +109,7 @@ fn csv(lines: &[Line]) -> String {
             "\"{name}\",{},{},{}\n",
             line.factor.value,
             line.factor.std_error,
-            method(line)
+            method(line.method)
         )
     };
     let lines: String = lines.iter().map(line).collect();

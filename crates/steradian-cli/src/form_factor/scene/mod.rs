@@ -14,13 +14,12 @@ use steradian::estimation::{Plan, Silent, Stopping};
 use steradian::exchange::radiosity::{Surroundings, emitted};
 use steradian::exchange::smoothing::{Smoothed, smooth};
 use steradian::exchange::{
-    Facets, Grouping, Groups, MatrixOptions, MatrixSummary, Row, Sides, Technique, matrix,
+    Element, Facets, Grouping, Groups, MatrixOptions, MatrixSummary, Row, Sides, Technique, matrix,
 };
 use steradian::quantity::Temperature;
 use steradian_io::report::form_factors::FactorReport;
 use steradian_kernel::InstructionSet;
 
-use super::surfaces::Element;
 use crate::engine::Threads;
 use crate::progress::Watch;
 use crate::result::VERSION;

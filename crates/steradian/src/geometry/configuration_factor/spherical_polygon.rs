@@ -56,20 +56,11 @@ fn sum(normal: Direction, outline: &[Vector]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Point;
     use crate::geometry::configuration_factor::{of_cap, of_polygon};
-    use crate::geometry::testing::{any_direction, close};
-    use crate::geometry::{Frame, Point, Spherical};
+    use crate::geometry::testing::{any_direction, close, ring};
     use crate::quantity::Angle;
     use proptest::prelude::*;
-
-    fn ring(pole: Direction, half_angle: f64, corners: u32) -> Vec<Direction> {
-        let frame = Frame::from_normal(pole);
-        let corner = |index| {
-            let phi = Angle::from_radians(TAU * f64::from(index) / f64::from(corners));
-            frame.to_world(Spherical::new(Angle::from_radians(half_angle), phi).to_direction())
-        };
-        (0..corners).map(corner).collect()
-    }
 
     #[test]
     fn all_or_nothing_of_the_hemisphere() {

@@ -199,9 +199,8 @@ impl Polygon {
 }
 
 /// A n = ½ Σ (pᵢ − p₀) × (pᵢ₊₁ − p₀).
-fn area_vector(ring: &[Point]) -> Vector {
-    let origin = ring[0];
-    let cross = |edge: &[Point]| (edge[0] - origin).cross(edge[1] - origin);
+pub(super) fn area_vector(ring: &[Point]) -> Vector {
+    let cross = |edge: &[Point]| (edge[0] - ring[0]).cross(edge[1] - ring[0]);
     ring.windows(2)
         .map(cross)
         .fold(Vector::ZERO, |sum, term| sum + term)

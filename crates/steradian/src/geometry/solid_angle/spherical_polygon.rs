@@ -97,9 +97,7 @@ fn sum_of_fan(corners: &[Direction]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::testing::{any_direction, close};
-    use crate::geometry::{Frame, Spherical};
-    use crate::quantity::Angle;
+    use crate::geometry::testing::{any_direction, close, ring};
     use proptest::prelude::*;
 
     fn direction(x: f64, y: f64, z: f64) -> Direction {
@@ -108,16 +106,6 @@ mod tests {
 
     fn area(corners: &[Direction]) -> f64 {
         of_spherical_polygon(corners).unwrap().to_steradians()
-    }
-
-    /// Corners at one angle from `pole`, counter-clockwise.
-    fn ring(pole: Direction, half_angle: f64, corners: u32) -> Vec<Direction> {
-        let frame = Frame::from_normal(pole);
-        let corner = |index| {
-            let phi = Angle::from_radians(TAU * f64::from(index) / f64::from(corners));
-            frame.to_world(Spherical::new(Angle::from_radians(half_angle), phi).to_direction())
-        };
-        (0..corners).map(corner).collect()
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The part of a polygon that another one can see, as closed rings of edges.
 
+use crate::geometry::polygon::area_vector;
 use crate::geometry::{Point, Polygon, Vector};
 
 /// Where two polygons are and how large.
@@ -110,7 +111,7 @@ impl Outline {
         let mut rings = vec![outline];
         for hole in polygon.holes() {
             let ring = clip(hole.iter().copied(), plane);
-            let is_counter_clockwise = normal.dot(twice_area(&ring)) > 0.0;
+            let is_counter_clockwise = normal.dot(area_vector(&ring)) > 0.0;
             rings.push(if is_counter_clockwise {
                 ring.into_iter().rev().collect()
             } else {
@@ -159,13 +160,6 @@ fn clip(
         (from, height_from) = (to, height_to);
     }
     if highest > 0.0 { kept } else { Vec::new() }
-}
-
-fn twice_area(ring: &[Point]) -> Vector {
-    let cross = |pair: &[Point]| (pair[0] - ring[0]).cross(pair[1] - ring[0]);
-    ring.windows(2)
-        .map(cross)
-        .fold(Vector::ZERO, |sum, term| sum + term)
 }
 
 fn edges(ring: &[Point], scale: &Scale) -> Vec<Edge> {
