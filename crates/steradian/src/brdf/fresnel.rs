@@ -261,8 +261,12 @@ mod tests {
 
         #[test]
         fn the_way_back_reflects_as_much(cos in 0.001..=1.0_f64, eta in 1.0..3.0_f64) {
-            let back = dielectric(refracted_cosine(cos, eta).unwrap(), 1.0 / eta);
-            prop_assert!((back.mean() - dielectric(cos, eta).mean()).abs() < 1e-12);
+            let inside = refracted_cosine(cos, eta).unwrap();
+            let outside = refracted_cosine(inside, 1.0 / eta).unwrap();
+            // Close to the horizon the rounding of one cosine shows in the other: cos dcos = η² cos_t dcos_t.
+            prop_assert!((outside - cos).abs() < 8.0 * f64::EPSILON * eta * eta / cos);
+            let back = dielectric(inside, 1.0 / eta);
+            prop_assert!((back.mean() - dielectric(outside, eta).mean()).abs() < 1e-12);
         }
 
         #[test]
