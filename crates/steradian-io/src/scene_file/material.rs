@@ -1,6 +1,6 @@
 //! `[materials.NAME]`: what surfaces are made of.
 
-use steradian::scene::description::{MaterialDescription, MaterialModel};
+use steradian::scene::description::{MaterialDescription, MaterialModel, Media};
 
 use super::fields::Fields;
 use super::node::Node;
@@ -14,6 +14,7 @@ pub(super) fn read(name: &str, node: Node<'_>) -> Option<MaterialDescription> {
         name: name.to_owned(),
         model: model?,
         opacity,
+        media: Media::default(),
     })
 }
 

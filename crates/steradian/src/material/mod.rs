@@ -1,13 +1,25 @@
 //! What a surface is made of: picks the [`Brdf`] at a point, and says how much of the light is stopped there.
 
 mod bitmap;
+mod media;
+mod prepared;
+mod recipe;
+mod scalar;
 mod texture;
 
 pub use bitmap::{Bitmap, BitmapError, Interpolation, Texels, Wrap, linear_from_srgb};
+pub use media::Media;
+pub use prepared::PreparedRecipe;
+pub use recipe::{Recipe, Role, Roughness, Turn, Turned};
+pub use scalar::{Picture, Scalar};
 pub use texture::{ColorLanes, Hue, Pattern, Site, Texture, Tint};
+
+use std::borrow::Cow;
+use std::sync::Arc;
 
 use crate::brdf::{Brdf, Lambertian, Mirror};
 use crate::quantity::Spectrum;
+use crate::spectrum::Wavelengths;
 
 /// A material, by number.
 #[derive(Copy, Clone, Debug, PartialEq, Eq, Hash)]
@@ -25,6 +37,8 @@ pub struct Material {
     pub model: Model,
     /// The part of the light that it stops; `None` is all of it.
     pub opacity: Option<Opacity>,
+    /// What absorbs on the sides of the surface, in 1/m.
+    pub media: Media<Hue>,
 }
 
 /// How a material reflects.
@@ -42,6 +56,8 @@ pub enum Model {
         /// Specular reflectance.
         reflectance: Tint,
     },
+    /// Any other model.
+    Recipe(Arc<PreparedRecipe>),
 }
 
 /// The part of the light that a surface stops; the rest passes straight through.
@@ -72,34 +88,91 @@ impl Material {
     pub const BLACK: Self = Self {
         model: Model::Black,
         opacity: None,
+        media: Media {
+            inside: None,
+            outside: None,
+        },
     };
 
-    /// The reflection at a point where the tint has these lanes; `None` when nothing is reflected.
-    pub fn brdf_at(&self, reflectance: Spectrum) -> Option<Brdf> {
-        match self.model {
-            Model::Black => None,
-            Model::Lambertian { .. } => Some(Brdf::Lambertian(Lambertian { reflectance })),
-            Model::Mirror { .. } => Some(Brdf::Mirror(Mirror { reflectance })),
+    /// The model at a point for a path of these wavelengths; `None` where the surface is black.
+    pub fn brdf(
+        &self,
+        site: &Site,
+        colors: &ColorLanes,
+        wavelengths: &Wavelengths,
+    ) -> Option<Cow<'_, Brdf>> {
+        let lanes = |tint| Spectrum::from_lanes(colors.tint(tint, site, wavelengths));
+        let made = match &self.model {
+            Model::Black => return None,
+            Model::Recipe(recipe) => return recipe.brdf(site, colors, wavelengths),
+            Model::Lambertian { reflectance } => Brdf::Lambertian(Lambertian {
+                reflectance: lanes(reflectance),
+            }),
+            Model::Mirror { reflectance } => Brdf::Mirror(Mirror {
+                reflectance: lanes(reflectance),
+            }),
+        };
+        Some(Cow::Owned(made))
+    }
+
+    /// The tint that is the reflectance at every angle of incidence; `None` for a model that has none such.
+    pub fn reflectance(&self) -> Option<&Tint> {
+        match &self.model {
+            Model::Black | Model::Recipe(_) => None,
+            Model::Lambertian { reflectance } | Model::Mirror { reflectance } => Some(reflectance),
         }
     }
 
-    /// Hemispherical reflectance (the same at every angle of incidence for the models so far); `None` if nothing is reflected.
-    pub fn reflectance(&self) -> Option<&Tint> {
+    /// The tints of the model.
+    pub fn tints(&self) -> Vec<&Tint> {
         match &self.model {
-            Model::Black => None,
-            Model::Lambertian { reflectance } | Model::Mirror { reflectance } => Some(reflectance),
+            Model::Black => vec![],
+            Model::Lambertian { reflectance } | Model::Mirror { reflectance } => vec![reflectance],
+            Model::Recipe(recipe) => recipe.recipe().all_lanes(),
         }
     }
 
     /// All textures of reflectance and opacity.
     pub fn textures(&self) -> impl Iterator<Item = &Texture> {
-        let reflectance = self.reflectance().map(|tint| &tint.textures);
+        let tints = self.tints().into_iter().map(|tint| &tint.textures);
         let opacity = self.opacity.as_ref().map(|opacity| &opacity.textures);
-        reflectance.into_iter().chain(opacity).flatten()
+        tints.chain(opacity).flatten()
     }
 
-    /// Whether reflection couples single directions, which next-event estimation cannot find.
+    /// Whether single directions are all that it couples, which next-event estimation cannot find.
     pub fn is_specular(&self) -> bool {
-        matches!(self.model, Model::Mirror { .. })
+        match &self.model {
+            Model::Black | Model::Lambertian { .. } => false,
+            Model::Mirror { .. } => true,
+            Model::Recipe(recipe) => recipe.is_specular(),
+        }
+    }
+
+    /// Whether the model lets light through, straight or scattered; an opacity apart.
+    pub fn transmits(&self) -> bool {
+        matches!(&self.model, Model::Recipe(recipe) if recipe.transmits())
+    }
+
+    /// Whether light passes straight through the model, so that next-event rays may: the part given by
+    /// [`straight_share`](Self::straight_share); an opacity apart.
+    pub fn is_pane(&self) -> bool {
+        matches!(&self.model, Model::Recipe(recipe) if recipe.is_pane())
+    }
+
+    /// The part of the light that goes straight through the model at this cosine to the normal; an opacity apart.
+    pub fn straight_share(
+        &self,
+        cos_incident: f64,
+        site: &Site,
+        colors: &ColorLanes,
+        wavelengths: &Wavelengths,
+    ) -> Spectrum {
+        match self.brdf(site, colors, wavelengths).as_deref() {
+            Some(Brdf::Pane(pane)) => {
+                let passed = pane.shares(cos_incident.abs().min(1.0));
+                Spectrum::from_lanes(passed.map(|(_, transmitted)| transmitted as f32))
+            }
+            _ => Spectrum::ZERO,
+        }
     }
 }

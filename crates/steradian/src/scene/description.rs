@@ -6,8 +6,11 @@
 use std::sync::Arc;
 
 pub use super::appearance::{Opacity, Pattern, Placement, Texture, Varying};
+pub use crate::brdf::Slopes;
 use crate::geometry::{Point, Transform, Vector};
-pub use crate::material::{Bitmap, Interpolation, Texels, Wrap};
+pub use crate::material::{
+    Bitmap, Interpolation, Media, Picture, Recipe, Roughness, Scalar, Texels, Wrap,
+};
 use crate::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
     LuminousFlux, LuminousIntensity, Radiance,
@@ -73,6 +76,8 @@ pub struct MaterialDescription {
     pub model: MaterialModel,
     /// What part of the light it stops; `None` is all of it.
     pub opacity: Option<Opacity>,
+    /// Absorption in 1/m on the sides of the surface.
+    pub media: Media<LaneValues>,
 }
 
 impl MaterialDescription {
@@ -82,6 +87,7 @@ impl MaterialDescription {
             name: name.into(),
             model,
             opacity: None,
+            media: Media::default(),
         }
     }
 }
@@ -106,6 +112,8 @@ pub enum MaterialModel {
         /// Material of the back side.
         back: String,
     },
+    /// Any other model.
+    Recipe(Recipe<Varying, Scalar>),
 }
 
 /// A shape with what it is made of and what it emits.

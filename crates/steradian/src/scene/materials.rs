@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::curves::Curves;
 use super::description::{self, LaneValues, MaterialDescription, MaterialModel, Varying};
-use super::{Fault, Part, Problem};
+use super::{Fault, Part, Problem, recipes};
 use crate::material::{
     Bitmap, Hue, Material, MaterialId, Model, Opacity, Pattern, Texels, Texture, Tint,
 };
-use crate::spectrum::Lanes;
+use crate::spectrum::{LaneCurve, Lanes};
 
 /// Prepared materials and the sides that each name stands for.
 pub(super) struct Materials {
@@ -62,6 +62,13 @@ pub(super) fn prepare(
         }
         match one_sided(description, lanes, curves) {
             Ok(Some(material)) => {
+                if matches!(material.model, Model::Recipe(_)) {
+                    problems.push(Problem::at(
+                        part,
+                        "model",
+                        "light is not yet traced at this model",
+                    ));
+                }
                 let id = MaterialId(prepared.materials.len() as u32);
                 prepared.materials.push((name.clone(), material));
                 prepared.sides.push((name.clone(), [id, id]));
@@ -91,6 +98,9 @@ fn one_sided(
         MaterialModel::Mirror { reflectance } => Model::Mirror {
             reflectance: tint(&reflectance.clone().into(), lanes, curves).map_err(fault)?,
         },
+        MaterialModel::Recipe(recipe) => {
+            Model::Recipe(Arc::new(recipes::prepare(recipe, lanes, curves)?))
+        }
         MaterialModel::TwoSided { .. } if description.opacity.is_some() => {
             let message = "a material of two sides takes the opacity of each: state it there";
             return Err(("opacity", message.into()));
@@ -102,24 +112,36 @@ fn one_sided(
         .map(|opacity| prepare_opacity(opacity, lanes, curves))
         .transpose()
         .map_err(|message| ("opacity", message))?;
-    Ok(Some(Material { model, opacity }))
+    let media = description.media.turn(|key, absorption| {
+        recipes::coefficient(absorption, lanes, curves).map_err(|message| (key, message))
+    })?;
+    Ok(Some(Material {
+        model,
+        opacity,
+        media,
+    }))
 }
 
-fn tint(values: &Varying, lanes: &Lanes, curves: &mut Curves) -> Result<Tint, String> {
+pub(super) fn tint(values: &Varying, lanes: &Lanes, curves: &mut Curves) -> Result<Tint, String> {
     Ok(Tint {
-        hue: hue(&values.factor, lanes, curves)?,
+        hue: share(&values.factor, lanes, curves)?,
         textures: textures(&values.textures, lanes, curves)?,
     })
 }
 
-fn hue(values: &LaneValues, lanes: &Lanes, curves: &mut Curves) -> Result<Hue, String> {
-    let prepared = lanes
+/// A part of the light.
+fn share(values: &LaneValues, lanes: &Lanes, curves: &mut Curves) -> Result<Hue, String> {
+    let found = lanes
         .reflectance(values)
         .map_err(|error| error.to_string())?;
-    Ok(Hue {
-        lanes: prepared.lanes.map(|lane| lane as f32),
-        curve: curves.number(prepared.curve),
-    })
+    Ok(hue(found, curves))
+}
+
+pub(super) fn hue(found: LaneCurve, curves: &mut Curves) -> Hue {
+    Hue {
+        lanes: found.lanes.map(|lane| lane as f32),
+        curve: curves.number(found.curve),
+    }
 }
 
 fn prepare_opacity(
@@ -174,7 +196,7 @@ pub(super) fn textures(
                 Pattern::Bitmap(Arc::clone(bitmap))
             }
             description::Pattern::Checkerboard([a, b]) => {
-                Pattern::Checkerboard([hue(a, lanes, curves)?, hue(b, lanes, curves)?])
+                Pattern::Checkerboard([share(a, lanes, curves)?, share(b, lanes, curves)?])
             }
             description::Pattern::VertexColor => {
                 lanes.check_colours().map_err(|error| error.to_string())?;

@@ -12,6 +12,7 @@ mod lights;
 mod materials;
 mod problem;
 mod receivers;
+mod recipes;
 mod remarks;
 mod sensors;
 mod spectral_readouts;
@@ -244,7 +245,8 @@ impl Scene {
 /// Whether no light passes a surface of this material.
 fn stops_light(material: &MaterialDescription) -> bool {
     material.opacity.is_none()
-        && match material.model {
+        && match &material.model {
+            MaterialModel::Recipe(recipe) => !recipe.transmits(),
             MaterialModel::Lambertian { .. }
             | MaterialModel::Mirror { .. }
             | MaterialModel::TwoSided { .. } => true,

@@ -24,19 +24,31 @@ pub(super) fn spectral(description: &SceneDescription, grid: &Grid) -> Vec<Strin
         }
     }
     for material in &description.materials {
-        let reflectance = match &material.model {
-            MaterialModel::Lambertian { reflectance } => &reflectance.factor,
-            MaterialModel::Mirror { reflectance } => reflectance,
-            MaterialModel::TwoSided { .. } => continue,
-        };
-        if let Some([low, high]) = short(reflectance, grid) {
-            let name = &material.name;
+        let name = &material.name;
+        let short = factors(&material.model)
+            .into_iter()
+            .find_map(|values| short(values, grid));
+        if let Some([low, high]) = short {
             remarks.push(format!(
                 "material `{name}`: its table goes from {low} to {high} nm and keeps its last value beyond"
             ));
         }
     }
     remarks
+}
+
+/// The numbers in lanes of a model.
+fn factors(model: &MaterialModel) -> Vec<&LaneValues> {
+    match model {
+        MaterialModel::Lambertian { reflectance } => vec![&reflectance.factor],
+        MaterialModel::Mirror { reflectance } => vec![reflectance],
+        MaterialModel::Recipe(recipe) => recipe
+            .all_lanes()
+            .into_iter()
+            .map(|lanes| &lanes.factor)
+            .collect(),
+        MaterialModel::TwoSided { .. } => vec![],
+    }
 }
 
 /// Name and spectrum of everything that emits.

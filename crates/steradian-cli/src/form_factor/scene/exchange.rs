@@ -8,7 +8,7 @@ use steradian::exchange::radiosity::{
     Boundary, Equilibrium, Exchanged, GreySurface, Surroundings, exchange,
 };
 use steradian::exchange::{Facets, Groups, Row, Uncertain};
-use steradian::material::Material;
+use steradian::material::{Material, Model};
 use steradian_io::files::DiskFiles;
 use steradian_io::import::boundaries::{BoundaryLine, read_boundaries};
 use steradian_io::report::columns::Columns;
@@ -75,8 +75,9 @@ fn emissivity(facets: &Facets, facet: usize) -> Option<f64> {
     let (scene, facet) = (facets.scene(), &facets.list()[facet]);
     let part = scene.parts()[facet.part.0 as usize];
     let material: &Material = scene.material(if facet.is_back { part.back } else { part.front });
-    let Some(tint) = material.reflectance() else {
-        return Some(1.0);
+    let tint = match &material.model {
+        Model::Black => return Some(1.0),
+        _ => material.reflectance()?,
     };
     let lanes = &tint.hue.lanes[..scene.lanes().count()];
     let grey = tint.is_constant() && lanes.iter().all(|lane| *lane == lanes[0]);

@@ -13,8 +13,8 @@ use std::collections::HashMap;
 
 use steradian::quantity::{Amount, Luminance};
 use steradian::scene::description::{
-    EmissionAmount, EmissionDescription, LaneValues, MaterialDescription, MaterialModel, Opacity,
-    Pattern, Placement, Texture, Varying,
+    EmissionAmount, EmissionDescription, LaneValues, MaterialDescription, MaterialModel, Media,
+    Opacity, Pattern, Placement, Texture, Varying,
 };
 
 use super::document::{Document, part};
@@ -118,6 +118,7 @@ impl<'d> Materials<'d> {
             name: name.clone(),
             model: reader.model()?,
             opacity: reader.opacity()?,
+            media: Media::default(),
         });
         Ok(Finish {
             material: name,

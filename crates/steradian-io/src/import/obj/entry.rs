@@ -2,8 +2,8 @@
 
 use steradian::quantity::{Amount, Radiance};
 use steradian::scene::description::{
-    EmissionAmount, EmissionDescription, LaneValues, MaterialDescription, MaterialModel, Opacity,
-    Texture, Varying,
+    EmissionAmount, EmissionDescription, LaneValues, MaterialDescription, MaterialModel, Media,
+    Opacity, Texture, Varying,
 };
 
 use super::maps::{Map, Pictures, Purpose};
@@ -55,6 +55,7 @@ impl Entry {
                 },
                 name: self.name,
                 opacity: (opacity.factor < 1.0 || !opacity.textures.is_empty()).then_some(opacity),
+                media: Media::default(),
             },
         }
     }

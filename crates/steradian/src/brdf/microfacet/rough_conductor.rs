@@ -63,17 +63,19 @@ impl RoughConductor {
         let white = Self::single_scattering(facets, ComplexIndex::PERFECT);
         let missing =
             MissingLight::new(facets.is_isotropic(), |wo| 1.0 - white.first(wo, PANELS)[0]);
-        let average = 1.0 - missing.average();
-        let reflectance = index
-            .average_reflectance()
-            .map(|f| f * f * average / (1.0 - f * (1.0 - average)));
         Self {
-            facets,
-            index,
-            later: Some(LaterLight {
-                missing: Arc::new(missing),
-                reflectance,
-            }),
+            later: Some(LaterLight::new(Arc::new(missing), index)),
+            ..Self::single_scattering(facets, index)
+        }
+    }
+
+    /// The same surface of another metal, which shares the tables of this one.
+    #[must_use]
+    pub fn with_index(&self, index: ComplexIndex) -> Self {
+        let later = self.later.as_ref();
+        Self {
+            later: later.map(|later| LaterLight::new(Arc::clone(&later.missing), index)),
+            ..Self::single_scattering(self.facets, index)
         }
     }
 
@@ -174,6 +176,17 @@ impl RoughConductor {
 }
 
 impl LaterLight {
+    fn new(missing: Arc<MissingLight>, index: ComplexIndex) -> Self {
+        let average = 1.0 - missing.average();
+        let reflectance = index
+            .average_reflectance()
+            .map(|f| f * f * average / (1.0 - f * (1.0 - average)));
+        Self {
+            missing,
+            reflectance,
+        }
+    }
+
     fn evaluate(&self, wo: Direction, wi: Direction) -> [f64; 4] {
         let both = self.missing.at(wo) * self.missing.at(wi);
         let lobe = both * FRAC_1_PI / self.missing.average();

@@ -35,6 +35,9 @@ pub enum LaneError {
     /// Reflectance out of range.
     #[error("a reflectance lies between 0 and 1, not {0}")]
     Reflectance(f64),
+    /// A number that is not finite, or negative.
+    #[error("this number is finite and at least 0, not {0}")]
+    Coefficient(f64),
     /// A spectrum that is no spectrum.
     #[error("a spectrum's values are finite, not negative and not all zero")]
     Spectrum,

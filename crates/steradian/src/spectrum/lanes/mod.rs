@@ -19,11 +19,13 @@ mod error;
 mod spectral;
 
 pub use error::LaneError;
-use spectral::{by_wavelength, check_visible, colour, emission, scaled_to};
+use spectral::{
+    by_wavelength, check_visible, colour, daylight_mean, emission, scaled_to, unbounded_colour,
+};
 
 use std::sync::Arc;
 
-use super::{Action, Beyond, Curve, Grid, LaneValues, VISIBLE};
+use super::{Action, Beyond, Curve, Grid, LaneValues, VISIBLE, apply, rgb_from_xyz};
 
 /// Lanes of a spectrum.
 pub const MAX_LANES: usize = 4;
@@ -258,6 +260,46 @@ impl Lanes {
             Some(&outside) => Err(LaneError::Reflectance(outside)),
             None => Ok(lanes),
         }
+    }
+
+    /// A number of at least 0 that is no share of light, such as an index of refraction or an absorption; lanes that the
+    /// run does not use have that of the first.
+    ///
+    /// Of a table, `rgb` has its colour under D65 and the one band that carries light its mean for the eye under D65.
+    pub fn coefficient(&self, values: &LaneValues) -> Result<LaneCurve, LaneError> {
+        let found: LaneCurve = match (values, self.grid()) {
+            (LaneValues::Uniform(value), _) => [*value; MAX_LANES].into(),
+            (LaneValues::Curve { curve, .. }, Some(_)) => {
+                by_wavelength(curve.with_beyond(Beyond::Held))
+            }
+            (LaneValues::Curve { curve, .. }, None) => self.mean_under_daylight(curve)?.into(),
+            (_, Some(grid)) => unbounded_colour(values, grid)?,
+            _ => self.values(values)?.into(),
+        };
+        let curve = found.curve.iter().flat_map(|curve| curve.values());
+        let mut all = curve.chain(&found.lanes);
+        match all.find(|value| !(value.is_finite() && **value >= 0.0)) {
+            Some(&outside) => Err(LaneError::Coefficient(outside)),
+            None => Ok(self.filled(found)),
+        }
+    }
+
+    fn mean_under_daylight(&self, curve: &Curve) -> Result<[f64; MAX_LANES], LaneError> {
+        let xyz = daylight_mean(&curve.with_beyond(Beyond::Held));
+        match (&self.mode, self.light_band(), self.count()) {
+            (Mode::Rgb, ..) => {
+                let [r, g, b] = apply(&rgb_from_xyz(), xyz).map(|lane| lane.max(0.0));
+                Ok([r, g, b, r])
+            }
+            (Mode::Bands, Some(_), 1) => Ok([xyz[1]; MAX_LANES]),
+            _ => Err(LaneError::TableNotSpectral),
+        }
+    }
+
+    fn filled(&self, mut found: LaneCurve) -> LaneCurve {
+        let first = found.lanes[0];
+        found.lanes[self.carried()..].fill(first);
+        found
     }
 
     /// Lanes of a light of radiant power `power` whose spectrum has this shape.

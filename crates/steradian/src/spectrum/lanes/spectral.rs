@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use super::{LaneCurve, LaneError, MAX_LANES};
-use crate::spectrum::{Beyond, Curve, Grid, Illuminant, LaneValues, Sigmoid, VISIBLE};
+use crate::spectrum::{
+    Beyond, Curve, Grid, Illuminant, LaneValues, Observer, Sigmoid, VISIBLE, xyz_of,
+};
 
 /// The smooth reflectance of an RGB colour.
 pub(super) fn colour(values: &LaneValues, grid: &Grid) -> Result<Curve, LaneError> {
@@ -18,6 +20,23 @@ pub(super) fn colour(values: &LaneValues, grid: &Grid) -> Result<Curve, LaneErro
     Sigmoid::from_rgb(*rgb)
         .curve(range, 1.0)
         .map_err(|_| LaneError::Spectrum)
+}
+
+/// A colour of any brightness: the greatest lane times the reflectance of the rest.
+pub(super) fn unbounded_colour(values: &LaneValues, grid: &Grid) -> Result<LaneCurve, LaneError> {
+    let LaneValues::Rgb(rgb) = values else {
+        return Err(LaneError::BandsInSpectral);
+    };
+    let greatest = rgb.iter().fold(1.0, |a: f64, b| a.max(*b));
+    let hue = LaneValues::Rgb(rgb.map(|lane| lane / greatest));
+    Ok(by_wavelength(colour(&hue, grid)?).map(|lane| lane * greatest))
+}
+
+/// X, Y and Z of a curve under D65, which of 1 are those of D65 with Y = 1.
+pub(super) fn daylight_mean(curve: &Curve) -> [f64; 3] {
+    let white = Illuminant::D65.curve();
+    let [_, y, _] = xyz_of(white, None, Observer::Cie1931);
+    xyz_of(white, Some(curve), Observer::Cie1931).map(|value| value / y)
 }
 
 /// Nothing is known of a colour beyond what the eye sees.

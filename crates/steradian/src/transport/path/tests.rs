@@ -7,10 +7,12 @@ use glam::Vec3;
 use crate::brdf::{Brdf, Scatter};
 use crate::geometry::{Direction, Frame, Point, Transform, Vector};
 use crate::light::Kind;
-use crate::quantity::{Amount, Intensity, Spectrum};
+use crate::material::{ColorLanes, Site};
+use crate::quantity::{Amount, Intensity};
 use crate::sampling::testing::assert_mean;
 use crate::scene::Scene;
 use crate::scene::description::*;
+use crate::spectrum::Wavelengths;
 
 const COUNT: usize = 512;
 const REFLECTANCE: [f64; 3] = [0.125, 0.5, 0.8];
@@ -68,10 +70,8 @@ fn matt() -> Scene {
 
 fn brdf(scene: &Scene) -> Brdf {
     let material = scene.material(scene.parts()[0].front);
-    let tint = material.reflectance().unwrap();
-    material
-        .brdf_at(Spectrum::from_lanes(tint.hue.lanes))
-        .unwrap()
+    let found = material.brdf(&Site::NOWHERE, &ColorLanes::Rgb, &Wavelengths::default());
+    found.unwrap().into_owned()
 }
 
 /// Slanting rays that meet the floor, with a throughput of one.

@@ -50,7 +50,8 @@ impl Tints {
         let is_black = |tint: &Tint| tint.hue.lanes == [0.0; 4];
         let model = match material.model {
             _ if material.reflectance().is_none_or(is_black) => Model::Black,
-            material::Model::Black => Model::Black,
+            // A scene refuses recipes.
+            material::Model::Black | material::Model::Recipe(_) => Model::Black,
             material::Model::Lambertian { .. } => Model::Lambertian,
             material::Model::Mirror { .. } => Model::Mirror,
         };
