@@ -25,6 +25,7 @@
 //! light tracing, divides by `radiance_scale`. Source: E. Veach, *Robust Monte Carlo Methods for Light Transport
 //! Simulation* (1997), §5.2, eq. 5.14.
 
+pub mod check;
 mod complex_index;
 mod diffuse_transmission;
 mod eon;

@@ -1,4 +1,4 @@
-//! The contract of [`Brdf`], model by model: every test runs over every model of [`models`].
+//! The contract of [`Brdf`], model by model: what [`check`] leaves open.
 
 pub(crate) mod cases;
 
@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::geometry::Vector;
 use crate::geometry::testing::any_direction;
-use crate::sampling::testing::{assert_mean, grid_cell, histogram, independent};
+use crate::sampling::testing::{assert_mean, independent};
 
 /// A model and how well its albedo is known.
 struct Subject {
@@ -197,26 +197,6 @@ proptest! {
     }
 }
 
-#[test]
-fn a_surface_scatters_at_most_the_light_that_reaches_it() {
-    let finite = FINITE.iter().map(|subject| subject.model.clone());
-    for model in finite.chain(smooth_models()) {
-        for wo in views(&model) {
-            let (albedo, transmittance) = (model.albedo(wo), model.transmittance(wo));
-            assert!(
-                (albedo + transmittance).max_lane() <= 1.0 + 2e-3,
-                "{model:?}"
-            );
-            assert!(
-                lanes(albedo)
-                    .into_iter()
-                    .chain(lanes(transmittance))
-                    .all(|x| x >= 0.0)
-            );
-        }
-    }
-}
-
 /// E[weight] over each side, as shares of power: 4096 samples a view, false alarms below 1e-6 in all (six errors).
 #[test]
 fn the_mean_weight_of_samples_is_the_albedo() {
@@ -250,91 +230,6 @@ fn the_mean_weight_of_samples_is_the_albedo() {
             }
         }
     }
-}
-
-/// A grid over the whole sphere: cells of equal solid angle, z by azimuth.
-const CELLS: usize = 12;
-
-fn cell(wi: Direction) -> usize {
-    let turn = libm::atan2(wi.y(), wi.x()) / TAU;
-    grid_cell([0.5 * (wi.z() + 1.0), turn - turn.floor()], CELLS)
-}
-
-/// ∫ pdf dω over the cells, by the midpoint rule with `fine` × `fine` points a cell.
-fn expected_shares(model: &Brdf, wo: Direction, fine: usize) -> Vec<f64> {
-    let rows = fine * CELLS;
-    let mut shares = vec![0.0; CELLS * CELLS];
-    for i in 0..rows * rows {
-        let at = |k: usize| (k as f64 + 0.5) / rows as f64;
-        let cos = 2.0 * at(i / rows) - 1.0;
-        let wi = Direction::from_polar((1.0 - cos * cos).sqrt(), cos, TAU * at(i % rows));
-        shares[cell(wi)] += model.pdf(wo, wi) * 2.0 * TAU / (rows * rows) as f64;
-    }
-    shares
-}
-
-/// χ² and its freedom, of counts against the expected shares of `samples`; cells of fewer than ten are taken together.
-fn chi_squared(counts: &[u64], shares: &[f64], samples: u64) -> (f64, f64) {
-    let cells = counts.iter().copied().zip(shares.iter().copied());
-    let (mut sum, mut used, mut rest) = (0.0, 0.0, (0.0, 0.0));
-    let term = |found: f64, expected: f64| (found - expected) * (found - expected) / expected;
-    for (count, share) in cells {
-        let (found, expected) = (count as f64, share * samples as f64);
-        if expected < 10.0 {
-            rest = (rest.0 + found, rest.1 + expected);
-        } else {
-            sum += term(found, expected);
-            used += 1.0;
-        }
-    }
-    if rest.1 >= 1.0 {
-        sum += term(rest.0, rest.1);
-        used += 1.0;
-    } else {
-        // Where hardly anything is expected, nothing may come.
-        assert!(
-            rest.0 <= 12.0,
-            "{} samples where {} are expected",
-            rest.0,
-            rest.1
-        );
-    }
-    (sum, used)
-}
-
-/// The value that χ² of this freedom exceeds with about this probability (Wilson and Hilferty 1931).
-fn chi_squared_limit(freedom: f64, normal_quantile: f64) -> f64 {
-    let ninth = 2.0 / (9.0 * freedom);
-    let root = 1.0 - ninth + normal_quantile * ninth.sqrt();
-    freedom * root * root * root
-}
-
-/// False alarms below 1e-4 for all views of all models together: Šidák's 1 − (1 − 1e-4)^(1/n) a test is above 3.4e-7 for
-/// n < 290, the probability of five standard deviations. Samples without direction are missing from the cells as they are from the
-/// integral of the density.
-#[test]
-fn samples_have_their_density() {
-    for Subject { model, .. } in FINITE.iter() {
-        for wo in views(model).into_iter().filter(|wo| wo.z().abs() > 0.1) {
-            let shares = expected_shares(model, wo, 24);
-            assert!(shares.iter().sum::<f64>() < 1.0 + 2e-3, "{model:?}");
-            let samples = 65_536;
-            let drawn = independent(2, samples).filter_map(|u| model.sample(wo, u));
-            let counts = histogram(CELLS * CELLS, drawn.map(|scatter| cell(scatter.wi())));
-            let (found, freedom) = chi_squared(&counts, &shares, samples);
-            let limit = chi_squared_limit(freedom, 5.0);
-            assert!(found < limit, "{model:?} at {wo:?}: χ² {found} > {limit}");
-        }
-    }
-}
-
-#[test]
-fn a_density_that_is_off_by_ten_per_cent_is_refused() {
-    let shares = vec![1.0 / 64.0; 64];
-    let bent = independent(3, 65_536).map(|[u, v]| [u * (1.0 - 0.1 * (1.0 - u)), v]);
-    let counts = histogram(64, bent.map(|point| grid_cell(point, 8)));
-    let (found, freedom) = chi_squared(&counts, &shares, 65_536);
-    assert!(found > chi_squared_limit(freedom, 5.0));
 }
 
 /// ∫ f cosθ dω by the midpoint rule in cos²θ and φ.
@@ -402,4 +297,10 @@ fn parameters_out_of_range_are_refused_by_name() {
     assert!(RoughDielectric::new(facets, -1.5).is_err());
     assert!(SmoothDielectric::new(f64::INFINITY).is_err());
     assert!(Pane::new(0.9, [1.0; 4]).is_err() && Pane::new(1.5, [1.1; 4]).is_err());
+}
+
+/// All models of these tests.
+pub(super) fn every_model() -> Vec<Brdf> {
+    let finite = FINITE.iter().map(|subject| subject.model.clone());
+    finite.chain(smooth_models()).collect()
 }
