@@ -32,6 +32,7 @@ mod eon;
 mod error;
 pub mod fresnel;
 mod lambertian;
+pub mod measured;
 mod microfacet;
 mod mirror;
 mod oren_nayar;
@@ -46,6 +47,7 @@ pub use diffuse_transmission::DiffuseTransmission;
 pub use eon::EnergyPreservingOrenNayar;
 pub use error::ModelError;
 pub use lambertian::Lambertian;
+pub use measured::Measured;
 pub use microfacet::{Facets, RoughConductor, RoughDielectric, Shadowing, Slopes};
 pub use mirror::Mirror;
 pub use oren_nayar::OrenNayar;
@@ -130,6 +132,8 @@ pub enum Brdf {
     SmoothDielectric(SmoothDielectric),
     /// A thin pane of glass.
     Pane(Pane),
+    /// A table of values.
+    Measured(Measured),
 }
 
 impl Brdf {
@@ -140,6 +144,7 @@ impl Brdf {
             Self::OrenNayar(model) => model.evaluate(wo, wi),
             Self::EnergyPreservingOrenNayar(model) => model.evaluate(wo, wi),
             Self::DiffuseTransmission(model) => model.evaluate(wo, wi),
+            Self::Measured(model) => model.evaluate(wo, wi),
             Self::Phong(model) => model.evaluate(wo, wi),
             Self::RoughConductor(model) => model.evaluate(wo, wi),
             Self::RoughDielectric(model) => model.evaluate(wo, wi),
@@ -160,6 +165,7 @@ impl Brdf {
             Self::OrenNayar(model) => model.sample(wo, u),
             Self::EnergyPreservingOrenNayar(model) => model.sample(wo, u),
             Self::DiffuseTransmission(model) => model.sample(wo, u),
+            Self::Measured(model) => model.sample(wo, u),
             Self::Phong(model) => model.sample(wo, u),
             Self::RoughConductor(model) => model.sample(wo, u),
             Self::RoughDielectric(model) => model.sample(wo, u),
@@ -177,6 +183,7 @@ impl Brdf {
             Self::OrenNayar(model) => model.pdf(wo, wi),
             Self::EnergyPreservingOrenNayar(model) => model.pdf(wo, wi),
             Self::DiffuseTransmission(model) => model.pdf(wo, wi),
+            Self::Measured(model) => model.pdf(wo, wi),
             Self::Phong(model) => model.pdf(wo, wi),
             Self::RoughConductor(model) => model.pdf(wo, wi),
             Self::RoughDielectric(model) => model.pdf(wo, wi),
@@ -194,6 +201,7 @@ impl Brdf {
             Self::OrenNayar(model) => model.albedo(wo),
             Self::EnergyPreservingOrenNayar(model) => model.albedo(wo),
             Self::DiffuseTransmission(model) => model.albedo(wo),
+            Self::Measured(model) => model.albedo(wo),
             Self::Phong(model) => model.albedo(wo),
             Self::RoughConductor(model) => model.albedo(wo),
             Self::RoughDielectric(model) => model.albedo(wo),
@@ -207,6 +215,7 @@ impl Brdf {
     /// Directional-hemispherical transmittance, a share of power.
     pub fn transmittance(&self, wo: Direction) -> Spectrum {
         match self {
+            Self::Measured(model) => model.transmittance(wo),
             Self::DiffuseTransmission(model) => model.transmittance(wo),
             Self::RoughDielectric(model) => model.transmittance(wo),
             Self::SmoothDielectric(model) => model.transmittance(wo),
