@@ -2,6 +2,7 @@
 
 mod alpha;
 pub mod boundaries;
+pub mod bsdf;
 mod defaults;
 pub mod gltf;
 mod gltf_mesh;

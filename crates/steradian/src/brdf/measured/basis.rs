@@ -141,6 +141,13 @@ impl AngleBasis {
         self.rings.iter().map(range)
     }
 
+    /// The middles of the patches: (x, y) of directions.
+    pub fn middles(&self) -> Vec<[f64; 2]> {
+        (0..self.patches())
+            .map(|patch| self.point(patch, [0.5; 2]))
+            .collect()
+    }
+
     /// ∫ cosθ dω over a patch in sr.
     ///
     /// # Panics
@@ -161,7 +168,7 @@ impl AngleBasis {
         let last = self.rings.last()?;
         let ring = match square == 1.0 && last.to == 1.0 {
             true => last,
-            false => &self.rings[self.rings.partition_point(|ring| ring.to <= square)..].first()?,
+            false => self.rings[self.rings.partition_point(|ring| ring.to <= square)..].first()?,
         };
         let turn = libm::atan2(y, x) / TAU;
         let place = (turn - turn.floor()) * ring.patches as f64 + 0.5;

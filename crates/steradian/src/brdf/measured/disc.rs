@@ -50,12 +50,13 @@ pub(super) fn azimuths_within(
     radius: f64,
 ) -> impl Iterator<Item = [f64; 2]> {
     let one = move |sector: usize| {
-        let (across, sign) = if sector % 2 == 0 { (0, 1.0) } else { (1, -1.0) };
+        let across = sector % 2;
         let side = if sector < 2 { radius } else { -radius };
         if !(low[across] <= side && side < high[across]) {
             return None;
         }
-        let turn = if sector < 2 { sign } else { -sign };
+        // As in `on_ring`: along the first and the last side the other coordinate grows.
+        let turn = if across == sector / 2 { 1.0 } else { -1.0 };
         let ends = [low[1 - across] * turn, high[1 - across] * turn];
         let from = ends[0].min(ends[1]).max(-radius) / radius;
         let to = ends[0].max(ends[1]).min(radius) / radius;

@@ -1,0 +1,79 @@
+//! What is wrong with a file of a measured surface.
+
+use steradian::brdf::measured::MeasuredError;
+use thiserror::Error;
+
+/// What is wrong with a file of a measured surface.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum BsdfError {
+    /// An extension that no reader knows.
+    #[error("expected a file of a measured surface (.xml, .binary or .bsdf), found {0:?}")]
+    Format(String),
+    /// The file cannot be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    /// In an XML file.
+    #[error("line {line}, column {column}: {fault}")]
+    Xml {
+        /// The line, from 1.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What is wrong there.
+        fault: XmlFault,
+    },
+}
+
+/// What is wrong at a place of an XML file.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum XmlFault {
+    /// Bytes that are no text.
+    #[error("the file is not UTF-8 from here on")]
+    Encoding,
+    /// No XML at all.
+    #[error("no XML here: neither <?xml nor <WindowElement")]
+    NoXml,
+    /// Broken XML.
+    #[error("{0}")]
+    Syntax(String),
+    /// Another kind of file.
+    #[error("expected {expected}, found {found:?}")]
+    Unexpected {
+        /// What would be right.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// Something is missing.
+    #[error("<{parent}> has no <{child}>")]
+    Missing {
+        /// Where it should be.
+        parent: String,
+        /// What it is.
+        child: &'static str,
+    },
+    /// A basis that the file does not define.
+    #[error("the angle basis {0:?} is neither defined in the file nor one of Klems's")]
+    UnknownBasis(String),
+    /// A word that is no number, or no finite one.
+    #[error("expected a number, found {0:?}")]
+    NoNumber(String),
+    /// Braces of a tensor tree that do not match.
+    #[error("expected {expected} in the tensor tree, found {found}")]
+    Brace {
+        /// What would be right.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// Values that make no table.
+    #[error("{direction}: {fault}")]
+    Table {
+        /// The block's direction.
+        direction: String,
+        /// What is wrong.
+        fault: MeasuredError,
+    },
+}
