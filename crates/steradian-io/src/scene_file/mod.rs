@@ -32,6 +32,7 @@ mod lanes;
 mod light;
 mod material;
 mod mesh;
+mod models;
 mod nearest;
 mod node;
 mod placement;
@@ -39,6 +40,7 @@ mod schedule;
 mod schema;
 mod sections;
 mod sensor;
+mod settings;
 mod shape;
 mod source_map;
 mod spectrum;
@@ -62,7 +64,9 @@ use context::Context;
 use source_map::SourceMap;
 
 pub use help::key_help;
+pub use models::{KeyHelp, ModelHelp, models};
 pub use schema::schema;
+pub use settings::material_from_settings;
 
 /// A scene file that could be read.
 #[derive(Clone, Debug)]

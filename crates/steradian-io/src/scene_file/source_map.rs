@@ -21,7 +21,7 @@ pub(super) struct SourceMap {
 
 /// A table of the file: its own place, and those of the values in it and in the tables it holds.
 #[derive(Clone, Debug)]
-struct Entry {
+pub(super) struct Entry {
     span: Range<usize>,
     values: Vec<(String, Range<usize>)>,
 }
@@ -62,7 +62,7 @@ impl SourceMap {
 }
 
 impl Entry {
-    fn new(table: &Spanned<DeValue<'_>>) -> Self {
+    pub fn new(table: &Spanned<DeValue<'_>>) -> Self {
         let mut values = Vec::new();
         if let DeValue::Table(entries) = table.get_ref() {
             collect(entries, &mut values);
@@ -82,7 +82,7 @@ impl Entry {
     }
 
     /// The value of a key of the table itself or else of a table it holds.
-    fn value(&self, key: &str) -> Option<Range<usize>> {
+    pub fn value(&self, key: &str) -> Option<Range<usize>> {
         self.values
             .iter()
             .find(|(name, _)| name == key)

@@ -2,6 +2,7 @@
 
 mod every_key;
 mod generated;
+mod models;
 mod mutations;
 mod problems;
 mod reading;

@@ -274,9 +274,10 @@ impl<L, N> Recipe<L, N> {
         }
     }
 
-    /// The key of a model's parameter in a scene file.
-    pub fn key(&self, parameter: &'static str) -> &'static str {
+    /// The key, in a scene file, of a model's parameter for which this was found.
+    pub fn key(&self, parameter: &'static str, found: f64) -> &'static str {
         match parameter {
+            "alpha" => self.key_of_alpha(found),
             "eta" if !matches!(self, Self::Conductor { .. }) => "ior",
             "kappa" => "k",
             "eta + kappa" => "eta",
@@ -285,6 +286,18 @@ impl<L, N> Recipe<L, N> {
             "glossy reflectance" => "glossy",
             "reflectance and transmittance" => "reflectance",
             known => known,
+        }
+    }
+
+    fn key_of_alpha(&self, found: f64) -> &'static str {
+        let roughness = match self {
+            Self::Conductor { roughness, .. } | Self::Dielectric { roughness, .. } => roughness,
+            _ => &None,
+        };
+        match roughness.map(|roughness| roughness.alpha) {
+            Some([x, y]) if x != y && x == found => "alpha_x",
+            Some([x, y]) if x != y => "alpha_y",
+            _ => "alpha",
         }
     }
 }

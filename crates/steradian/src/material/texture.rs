@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::Bitmap;
 use crate::spectrum::{
-    BakedCurve, CurveId, Grid, MAX_LANES, UpsamplingTable, Wavelengths, sigmoid_at,
+    BakedCurve, Curve, CurveId, Grid, Lanes, MAX_LANES, UpsamplingTable, Wavelengths, sigmoid_at,
 };
 
 /// Lanes that do not vary over the surface.
@@ -128,6 +128,18 @@ pub enum ColorLanes {
 }
 
 impl ColorLanes {
+    /// For these lanes, with curves by number.
+    pub fn new(lanes: &Lanes, curves: &[Arc<Curve>]) -> Self {
+        match lanes.grid() {
+            Some(grid) => Self::Spectral {
+                curves: curves.iter().map(|curve| grid.bake(curve)).collect(),
+                grid: *grid,
+            },
+            None if lanes.is_rgb() => Self::Rgb,
+            None => Self::Grey,
+        }
+    }
+
     /// The tint at a point for a path of these wavelengths.
     pub fn tint(&self, tint: &Tint, site: &Site, wavelengths: &Wavelengths) -> [f32; MAX_LANES] {
         let start = self.hue(&tint.hue, wavelengths);

@@ -18,7 +18,7 @@
 //! | [`Radiance`] | L · W/(m² sr) | [`Luminance`] | Lᵥ · cd/m² |
 //!
 //! and of space and time [`Length`] (m), [`Area`] (m²), [`Angle`] (rad), [`SolidAngle`] and
-//! [`ProjectedSolidAngle`] (sr), [`Time`] (s), [`AngularFrequency`] (rad/s), [`Temperature`] (K). [`LuminousEfficacy`] (lm/W) leads from the left half to the right.
+//! [`ProjectedSolidAngle`] (sr), [`Time`] (s), [`AngularFrequency`] (rad/s), [`Temperature`] (K), [`Absorption`] (1/m). [`LuminousEfficacy`] (lm/W) leads from the left half to the right.
 //!
 //! Radiant quantities hold either one number (`Flux`, short for `Flux<f64>`) or one number a lane
 //! (`Flux<Spectrum>`). Lanes are always radiant, so photometric quantities hold one number.
@@ -59,6 +59,7 @@
 //! let irradiance: Irradiance = sky * SolidAngle::HEMISPHERE;
 //! ```
 
+mod absorption;
 mod amount;
 mod angle;
 mod area;
@@ -75,6 +76,7 @@ mod time;
 mod unit;
 mod value;
 
+pub use absorption::Absorption;
 pub use amount::Amount;
 pub use angle::{Angle, ProjectedSolidAngle, SolidAngle};
 pub use area::Area;

@@ -85,7 +85,7 @@ pub(super) fn prepare(
 }
 
 /// `None` for a material that names another one for each side.
-fn one_sided(
+pub(super) fn one_sided(
     description: &MaterialDescription,
     lanes: &Lanes,
     curves: &mut Curves,

@@ -9,6 +9,7 @@ pub mod description;
 mod forms;
 mod geometry;
 mod lights;
+mod lone_material;
 mod materials;
 mod problem;
 mod receivers;
@@ -22,6 +23,7 @@ use std::sync::Arc;
 
 pub use channels::CAMERA_CHANNELS;
 use curves::Curves;
+pub use lone_material::LoneMaterial;
 use problem::Fault;
 pub use problem::{Part, Place, Problem};
 pub use unseen::Unseen;

@@ -55,7 +55,7 @@ fn fault(stated: &Stated, error: ModelError) -> Fault {
             high,
             found,
         } => {
-            let parameter = stated.key(parameter);
+            let parameter = stated.key(parameter, found);
             let error = ModelError::OutOfRange {
                 parameter,
                 low,
@@ -64,7 +64,7 @@ fn fault(stated: &Stated, error: ModelError) -> Fault {
             };
             (parameter, error.to_string())
         }
-        ModelError::GainsEnergy { parts, .. } => (stated.key(parts), error.to_string()),
+        ModelError::GainsEnergy { parts, sum } => (stated.key(parts, sum), error.to_string()),
     }
 }
 
@@ -226,10 +226,11 @@ mod tests {
             curves: curves.0.iter().map(|curve| grid.bake(curve)).collect(),
             grid,
         };
-        // 500 nm, a third of the way.
-        let mut wavelengths = Wavelengths::default();
-        let cells = (0..10_000).find(|place| grid.wavelength(f64::from(*place)) >= 499.999_999);
-        wavelengths.places = [cells.unwrap() as f32; 4];
+        // A third of the way.
+        let wavelengths = Wavelengths {
+            places: [grid.place(500.0) as f32; 4],
+            weights: [1.0; 4],
+        };
         let found = recipe.brdf(&Site::NOWHERE, &colors, &wavelengths).unwrap();
         let index = ComplexIndex::new([0.75; 4], [8.0 / 3.0; 4]).unwrap();
         let facets = Facets::isotropic(Slopes::Ggx, 0.5).unwrap();

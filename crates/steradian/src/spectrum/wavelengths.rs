@@ -59,6 +59,11 @@ impl Grid {
         self.low + place * self.width()
     }
 
+    /// Place of a wavelength in nm: cells from the start of the range.
+    pub fn place(&self, wavelength: f64) -> f64 {
+        (wavelength - self.low) / self.width()
+    }
+
     /// The curve as straight lines in the cells.
     pub fn bake(&self, curve: &Curve) -> BakedCurve {
         let quarter = |cell: usize, part: f64| curve.at(self.wavelength(cell as f64 + part));

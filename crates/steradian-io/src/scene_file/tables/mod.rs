@@ -4,6 +4,7 @@
 //! its section.
 
 mod lights;
+mod materials;
 mod schedules;
 mod sensors;
 mod shapes;
@@ -13,11 +14,12 @@ mod spectra;
 use steradian::quantity::LuminousEfficacy;
 use steradian::scene::description::Response;
 
-use super::keys::{Family, Form, Key, Kind, Record, Section, Value};
+use super::keys::{Form, Key, Record, Section, Value};
 use super::up::UpAxis;
 use super::value::Read;
 
 pub use lights::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
+pub use materials::{ABSORPTION, MATERIALS};
 pub use schedules::{SCHEDULE, SCHEDULE_TABLE};
 pub use sensors::{GRID, PROJECTION_NAMES, SENSORS};
 pub use shapes::{
@@ -99,66 +101,5 @@ pub const SCENE: Record = Record {
             LuminousEfficacy::VALUE,
             "Luminous efficacy K that links watts and lumens",
         ),
-    ],
-};
-
-const OPACITY_KEY: Key = Key::optional(
-    "opacity",
-    OPACITY,
-    "Part of the light that the surface stops, 0 to 1; the rest passes straight through",
-);
-
-pub const MATERIALS: Family = Family {
-    noun: "material",
-    tag: "model",
-    untagged: Some("two-sided"),
-    common: &[],
-    kinds: &[
-        Kind::new(
-            "lambertian",
-            "Reflects the same radiance in all directions",
-            &[
-                Key::required(
-                    "reflectance",
-                    VARYING,
-                    "Part of the arriving flux that is reflected, 0 to 1",
-                ),
-                OPACITY_KEY,
-            ],
-        ),
-        Kind::new(
-            "mirror",
-            "A perfect mirror",
-            &[
-                Key::default(
-                    "reflectance",
-                    Value::Lanes,
-                    "1",
-                    "Part of the arriving flux that is reflected, 0 to 1",
-                ),
-                OPACITY_KEY,
-            ],
-        ),
-        Kind::new(
-            "two-sided",
-            "Another material on each side; `model` may be left out",
-            &[
-                Key::required(
-                    "front",
-                    MATERIAL,
-                    "Material of the side that the normal points to",
-                ),
-                Key::required("back", MATERIAL, "Material of the other side"),
-            ],
-        ),
-        Kind::not_yet("oren-nayar"),
-        Kind::not_yet("conductor"),
-        Kind::not_yet("dielectric"),
-        Kind::not_yet("glass"),
-        Kind::not_yet("pane"),
-        Kind::not_yet("plastic"),
-        Kind::not_yet("ward"),
-        Kind::not_yet("phong"),
-        Kind::not_yet("principled"),
     ],
 };

@@ -210,7 +210,7 @@ impl<'a> Tables<'a> {
             cumulative,
             environment,
             responses: scene.lanes().responses().iter().filter_map(bake).collect(),
-            colors: color_lanes(scene),
+            colors: ColorLanes::new(scene.lanes(), scene.curves()),
             tints: tints.tints,
             opacities: tints.opacities,
         }
@@ -273,19 +273,4 @@ pub(super) enum Receiver {
     Irradiance,
     /// At a meter that takes light from the whole sphere.
     Scalar,
-}
-
-fn color_lanes(scene: &Scene) -> ColorLanes {
-    match scene.lanes().grid() {
-        Some(grid) => ColorLanes::Spectral {
-            curves: scene
-                .curves()
-                .iter()
-                .map(|curve| grid.bake(curve))
-                .collect(),
-            grid: *grid,
-        },
-        None if scene.lanes().is_rgb() => ColorLanes::Rgb,
-        None => ColorLanes::Grey,
-    }
 }

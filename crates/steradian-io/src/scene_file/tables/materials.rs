@@ -1,0 +1,236 @@
+//! Keys of materials, by model.
+
+use steradian::quantity::{Absorption, Angle, Quantity};
+
+use super::{MATERIAL, OPACITY, VARYING};
+use crate::scene_file::keys::{Family, Key, Kind, Value};
+
+const OPACITY_KEY: Key = Key::optional(
+    "opacity",
+    OPACITY,
+    "Part of the light that the surface stops, 0 to 1; the rest passes straight through",
+);
+const DIFFUSE_REFLECTANCE: Key = Key::required(
+    "reflectance",
+    VARYING,
+    "Part of the arriving flux that is reflected, 0 to 1",
+);
+const SPECULAR_REFLECTANCE: Key = Key::default(
+    "reflectance",
+    Value::Lanes,
+    "1",
+    "Part of the arriving flux that is reflected, 0 to 1",
+);
+
+const ETA: Key = Key::required(
+    "eta",
+    Value::Lanes,
+    "Real part of the index of refraction, 0 to 1000",
+);
+const K: Key = Key::required(
+    "k",
+    Value::Lanes,
+    "Imaginary part of the index of refraction, 0 to 1000",
+);
+
+const IOR: Key = Key::required(
+    "ior",
+    Value::Number,
+    "Index of refraction on the side away from the normal; .1 to 10 times that before it",
+);
+const EXTERIOR_IOR: Key = Key::default(
+    "exterior_ior",
+    Value::Number,
+    "1",
+    "Index of refraction on the side that the normal points to",
+);
+const ABSORPTION_KEY: Key = Key::optional(
+    "absorption",
+    ABSORPTION,
+    "What the medium on the side away from the normal absorbs on each metre",
+);
+const EXTERIOR_ABSORPTION: Key = Key::optional(
+    "exterior_absorption",
+    ABSORPTION,
+    "What the medium on the side that the normal points to absorbs on each metre",
+);
+
+const ALPHA: Key = Key::one_of(
+    "alpha",
+    "alpha",
+    Value::Number,
+    "Width of the facets' slopes, .001 to 1",
+);
+const ALPHA_X: Key = Key::one_of(
+    "alpha",
+    "alpha_x",
+    Value::Number,
+    "Width of the slopes along the first tangent, .001 to 1",
+);
+const ALPHA_Y: Key = Key::required(
+    "alpha_y",
+    Value::Number,
+    "Width of the slopes along the second tangent, .001 to 1",
+)
+.beside("alpha_x");
+const DISTRIBUTION: Key = Key::default(
+    "distribution",
+    SLOPES,
+    "\"ggx\"",
+    "How the slopes of the facets are distributed",
+);
+const LATER_LIGHT: Key = Key::default(
+    "multiple_scattering",
+    Value::Flag,
+    "true",
+    "Whether the light that facets pass to one another counts; without it rough surfaces lose light",
+);
+
+const SLOPES: Value = Value::Choice(&["ggx", "beckmann"]);
+
+/// One coefficient, or one a lane in 1/m.
+pub const ABSORPTION: Value = Value::Either(&[Value::Quantity(&[Absorption::TABLE]), Value::Lanes]);
+
+pub const MATERIALS: Family = Family {
+    noun: "material",
+    tag: "model",
+    untagged: Some("two-sided"),
+    common: &[],
+    kinds: &[
+        Kind::new(
+            "lambertian",
+            "Reflects the same radiance in all directions",
+            &[DIFFUSE_REFLECTANCE, OPACITY_KEY],
+        ),
+        Kind::new(
+            "mirror",
+            "A perfect mirror",
+            &[SPECULAR_REFLECTANCE, OPACITY_KEY],
+        ),
+        Kind::new(
+            "two-sided",
+            "Another material on each side; `model` may be left out",
+            &[
+                Key::required(
+                    "front",
+                    MATERIAL,
+                    "Material of the side that the normal points to",
+                ),
+                Key::required("back", MATERIAL, "Material of the other side"),
+            ],
+        ),
+        Kind::new(
+            "oren-nayar",
+            "Rough diffuse reflection of facets that are Lambertian, single scattering",
+            &[
+                DIFFUSE_REFLECTANCE,
+                Key::required(
+                    "sigma",
+                    Value::Quantity(&[Angle::TABLE]),
+                    "Standard deviation of the angle of the facets' slopes, 0 to 90 deg",
+                ),
+                OPACITY_KEY,
+            ],
+        ),
+        Kind::new(
+            "eon",
+            "Rough diffuse reflection that keeps its energy",
+            &[
+                DIFFUSE_REFLECTANCE,
+                Key::required("roughness", Value::Number, "Roughness, 0 to 1"),
+                OPACITY_KEY,
+            ],
+        ),
+        Kind::new(
+            "phong",
+            "Diffuse reflection and a glossy lobe about the mirrored direction, for teaching",
+            &[
+                Key::required("diffuse", VARYING, "Diffuse reflectance, 0 to 1"),
+                Key::required(
+                    "glossy",
+                    VARYING,
+                    "Reflectance of the lobe, 0 to 1; with the diffuse one 1 at most",
+                ),
+                Key::required(
+                    "exponent",
+                    Value::Number,
+                    "Power of the cosine to the mirrored direction, 0 to 1e6",
+                ),
+                OPACITY_KEY,
+            ],
+        ),
+        Kind::new(
+            "diffuse-transmission",
+            "Reflects and transmits the same radiance in all directions",
+            &[
+                Key::required("reflectance", VARYING, "Diffuse reflectance, 0 to 1"),
+                Key::required(
+                    "transmittance",
+                    VARYING,
+                    "Diffuse transmittance, 0 to 1; with the reflectance 1 at most",
+                ),
+                OPACITY_KEY,
+            ],
+        ),
+        Kind::new("conductor", "Polished metal", &[ETA, K, OPACITY_KEY]),
+        Kind::new(
+            "rough-conductor",
+            "Rough metal",
+            &[
+                ETA,
+                K,
+                ALPHA,
+                ALPHA_X,
+                ALPHA_Y,
+                DISTRIBUTION,
+                LATER_LIGHT,
+                OPACITY_KEY,
+            ],
+        ),
+        Kind::new(
+            "dielectric",
+            "A smooth interface of two dielectrics, such as the surface of water or glass",
+            &[
+                IOR,
+                EXTERIOR_IOR,
+                ABSORPTION_KEY,
+                EXTERIOR_ABSORPTION,
+                OPACITY_KEY,
+            ],
+        ),
+        Kind::new(
+            "rough-dielectric",
+            "A rough interface of two dielectrics, such as ground glass",
+            &[
+                IOR,
+                EXTERIOR_IOR,
+                ABSORPTION_KEY,
+                EXTERIOR_ABSORPTION,
+                ALPHA,
+                ALPHA_X,
+                ALPHA_Y,
+                DISTRIBUTION,
+                LATER_LIGHT,
+                OPACITY_KEY,
+            ],
+        ),
+        Kind::new(
+            "pane",
+            "A thin pane of glass, both its faces in one surface",
+            &[
+                Key::required("ior", Value::Number, "Index of refraction, 1 to 10"),
+                Key::default(
+                    "transmittance",
+                    VARYING,
+                    "1",
+                    "Internal transmittance of one passage along the normal, 0 to 1",
+                ),
+                OPACITY_KEY,
+            ],
+        ),
+        Kind::not_yet("glass"),
+        Kind::not_yet("plastic"),
+        Kind::not_yet("ward"),
+        Kind::not_yet("principled"),
+    ],
+};
