@@ -1,6 +1,8 @@
 //! Scenes in a few words.
 
+use steradian::brdf::Slopes;
 use steradian::geometry::{Point, Transform, Vector};
+use steradian::material::{Recipe, Roughness, Scalar};
 use steradian::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousFlux,
     LuminousIntensity, Radiance,
@@ -9,7 +11,7 @@ use steradian::scene::description::{
     EmissionAmount, EmissionDescription, FluxOf, FluxSurface, GeometryDescription, LaneValues,
     LightDescription, LightKind, MaterialDescription, MaterialModel, PointPower, Port, Receivers,
     SceneDescription, SensorDescription, SensorKind, ShapeDescription, Side, SpectrumMode,
-    SpotBeam,
+    SpotBeam, Varying,
 };
 
 /// A point.
@@ -64,6 +66,51 @@ pub fn coloured(name: &str, reflectance: LaneValues) -> MaterialDescription {
 pub fn mirror(name: &str, reflectance: f64) -> MaterialDescription {
     let reflectance = LaneValues::Uniform(reflectance);
     MaterialDescription::new(name, MaterialModel::Mirror { reflectance })
+}
+
+/// A material of any other model.
+pub fn modelled(name: &str, recipe: Recipe<Varying, Scalar>) -> MaterialDescription {
+    MaterialDescription::new(name, MaterialModel::Recipe(recipe))
+}
+
+/// The same in all lanes.
+pub fn even(value: f64) -> Varying {
+    LaneValues::Uniform(value).into()
+}
+
+/// Facets of this roughness, single scattering or all of it.
+pub fn rough(alpha: f64, multiple_scattering: bool) -> Roughness {
+    Roughness {
+        slopes: Slopes::Ggx,
+        alpha: [alpha; 2],
+        multiple_scattering,
+    }
+}
+
+/// An interface to a medium of this index, behind the surface.
+pub fn dielectric(ior: f64, roughness: Option<Roughness>) -> Recipe<Varying, Scalar> {
+    Recipe::Dielectric {
+        ior,
+        exterior_ior: 1.0,
+        roughness,
+    }
+}
+
+/// A metal like gold in the red.
+pub fn metal(roughness: Option<Roughness>) -> Recipe<Varying, Scalar> {
+    Recipe::Conductor {
+        eta: even(0.2),
+        kappa: even(3.0),
+        roughness,
+    }
+}
+
+/// A pane of index 1.5.
+pub fn pane(transmittance: f64) -> Recipe<Varying, Scalar> {
+    Recipe::Pane {
+        ior: 1.5,
+        transmittance: even(transmittance),
+    }
 }
 
 fn shape(geometry: GeometryDescription) -> ShapeDescription {

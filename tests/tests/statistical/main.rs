@@ -5,10 +5,13 @@
 
 mod energy;
 mod full_view;
+mod furnaces;
 mod lamps;
 mod mirrors;
+mod panes;
 mod reflection;
 mod reproducible;
+mod scattering;
 mod spectral;
 mod spectrum;
 mod textures;

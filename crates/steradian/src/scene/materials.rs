@@ -62,13 +62,6 @@ pub(super) fn prepare(
         }
         match one_sided(description, lanes, curves) {
             Ok(Some(material)) => {
-                if matches!(material.model, Model::Recipe(_)) {
-                    problems.push(Problem::at(
-                        part,
-                        "model",
-                        "light is not yet traced at this model",
-                    ));
-                }
                 let id = MaterialId(prepared.materials.len() as u32);
                 prepared.materials.push((name.clone(), material));
                 prepared.sides.push((name.clone(), [id, id]));

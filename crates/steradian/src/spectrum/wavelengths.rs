@@ -64,6 +64,19 @@ impl Grid {
         (wavelength - self.low) / self.width()
     }
 
+    /// The middles of all cells, four at a time: what is summed with their weights is the integral by the midpoint rule.
+    pub fn middles(&self) -> impl Iterator<Item = Wavelengths> + use<> {
+        let (cells, width) = (self.cells, self.width() as f32);
+        (0..cells.div_ceil(LANES)).map(move |group| {
+            let cell = |lane: usize| group * LANES + lane;
+            let weight = |lane| if cell(lane) < cells { width } else { 0.0 };
+            Wavelengths {
+                places: std::array::from_fn(|lane| cell(lane).min(cells - 1) as f32 + 0.5),
+                weights: std::array::from_fn(weight),
+            }
+        })
+    }
+
     /// The curve as straight lines in the cells.
     pub fn bake(&self, curve: &Curve) -> BakedCurve {
         let quarter = |cell: usize, part: f64| curve.at(self.wavelength(cell as f64 + part));

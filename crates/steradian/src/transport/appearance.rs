@@ -1,11 +1,14 @@
 //! What sides look like to a path: reflectance, emission and opacity at a point, at the path's wavelengths.
 
+use std::borrow::Cow;
+
 use super::interaction::Hit;
-use super::tables::{Emitter, EmitterShape, Lanes4, NO_TINT, Side, Tables, Tinted};
+use super::tables::{Emitter, EmitterShape, Lanes4, Model, NO_TINT, Side, Tables, Tinted};
 use super::towards::triangle_of;
-use crate::geometry::{Point, Vector};
+use crate::brdf::Brdf;
+use crate::geometry::{Direction, Frame, Point, Vector};
 use crate::material::Site;
-use crate::shape::Form;
+use crate::shape::{Form, TriangleMesh};
 use crate::spectrum::Wavelengths;
 
 impl Tables<'_> {
@@ -32,6 +35,56 @@ impl Tables<'_> {
     pub fn opacity(&self, side: &Side, site: impl FnOnce() -> Site) -> Option<f32> {
         let opacity = self.opacities.get(side.opacity as usize)?;
         Some(opacity.at(&site()))
+    }
+
+    /// The model of a side at a point; `None` where it is black.
+    pub fn brdf(
+        &self,
+        side: &Side,
+        site: &Site,
+        wavelengths: &Wavelengths,
+    ) -> Option<Cow<'_, Brdf>> {
+        let material = self.scene.material(side.material);
+        material.brdf(site, &self.colors, wavelengths)
+    }
+
+    /// The parts of the light that a pane reflects and lets straight through.
+    pub fn pane(&self, side: &Side, hit: &Hit, wavelengths: &Wavelengths) -> [Lanes4; 2] {
+        let brdf = self.brdf(side, &self.site(hit), wavelengths);
+        let Some(Brdf::Pane(pane)) = brdf.as_deref() else {
+            return [[0.0; 4]; 2];
+        };
+        // A shadow ray is no unit vector.
+        let length = Vector::from(hit.viewer.map(f64::from)).length();
+        let shares = pane.shares((f64::from(hit.cos_theta) / length).min(1.0));
+        [
+            shares.map(|(reflected, _)| reflected as f32),
+            shares.map(|(_, passed)| passed as f32),
+        ]
+    }
+
+    /// The part of the light that goes straight through a side, past what its opacity stops and through a pane.
+    pub fn passing(&self, side: &Side, hit: &Hit, wavelengths: &Wavelengths) -> Lanes4 {
+        let opacity = self.opacity(side, || self.site(hit)).unwrap_or(1.0);
+        let through = match side.model {
+            Model::Pane => self.pane(side, hit, wavelengths)[1],
+            _ => [0.0; 4],
+        };
+        through.map(|share| (1.0 - opacity) + opacity * share)
+    }
+
+    /// Local axes at a point with this normal: the first is that of the shape, the first edge of a rectangle and the
+    /// direction of the first texture coordinate of a mesh, where there is one.
+    pub fn frame(&self, primitive: u32, normal: [f32; 3]) -> Option<Frame> {
+        let normal = Direction::new(Vector::from(normal.map(f64::from))).ok()?;
+        let (shape, face) = self.scene.surfaces().face_of(primitive);
+        let tangent = match &self.scene.surfaces().shape(shape).form {
+            Form::Parallelogram(form) => Some(form.edges[0]),
+            Form::Mesh(mesh) => first_coordinate(mesh, face),
+            _ => None,
+        };
+        let frame = tangent.and_then(|tangent| Frame::from_normal_and_tangent(normal, tangent));
+        Some(frame.unwrap_or_else(|| Frame::from_normal(normal)))
     }
 
     /// What a surface knows of a point that a ray met.
@@ -75,6 +128,19 @@ fn site_of(form: &Form, face: usize, weights: [f32; 2], point: Point) -> Site {
         coordinates: form.coordinates(face, weights, point),
         color: form.color(face, weights),
     }
+}
+
+/// Where the first texture coordinate grows over a triangle, if it does.
+fn first_coordinate(mesh: &TriangleMesh, face: usize) -> Option<Vector> {
+    let coordinates = &mesh.attributes.coordinates;
+    let at = |corner: u32| coordinates.get(corner as usize).map(|uv| uv.map(f64::from));
+    let [a, b, c] = mesh.triangles[face].map(at);
+    let (a, b, c) = (a?, b?, c?);
+    let [p, q, r] = mesh.corners(face);
+    let (first, second) = (b[1] - a[1], c[1] - a[1]);
+    let determinant = (b[0] - a[0]) * second - (c[0] - a[0]) * first;
+    let tangent = ((q - p) * second - (r - p) * first) / determinant;
+    tangent.length().is_finite().then_some(tangent)
 }
 
 /// What a form knows of a point on one of its faces.

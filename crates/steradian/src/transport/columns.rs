@@ -2,7 +2,10 @@
 
 use steradian_kernel::{HitBatch, RayBatch};
 
+use super::interaction::Hit;
+use super::media::AIR;
 use super::profile::StopWatch;
+use super::scattering::Encounter;
 use super::tables::{Emitter, Tables};
 use super::transmittance::Transmittance;
 use crate::material::Site;
@@ -258,6 +261,32 @@ impl Shadows {
         tables.site_of_sample(emitter, self.numbers[i], end)
     }
 
+    /// Length of the shadow ray of row `i` in metres.
+    pub fn way(&self, i: usize) -> f32 {
+        let [x, y, z] = [
+            self.rays.direction_x[i],
+            self.rays.direction_y[i],
+            self.rays.direction_z[i],
+        ];
+        (x * x + y * y + z * z).sqrt() * self.rays.t_max[i]
+    }
+
+    /// Adds a sample.
+    pub fn push(&mut self, rays: ([f32; 3], [f32; 3], f32), gain: f32, emitter: u32, u: [f32; 2]) {
+        self.rays.push(rays.0, rays.1, rays.2);
+        self.gain.push(gain);
+        self.emitter.push(emitter);
+        self.numbers.push(u);
+    }
+
+    /// No samples.
+    pub fn clear(&mut self) {
+        self.rays.clear();
+        self.gain.clear();
+        self.emitter.clear();
+        self.numbers.clear();
+    }
+
     /// Room for one sample a vertex, all without gain.
     pub fn reset(&mut self, count: usize) {
         self.rays.clear();
@@ -267,6 +296,23 @@ impl Shadows {
         self.emitter.resize(count, 0);
         self.numbers.resize(count, [0.0; 2]);
     }
+}
+
+/// What a path carries that no diffuse reflection changes.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub(super) struct Luggage {
+    /// The medium that it is in.
+    pub medium: u32,
+    /// By how much refraction has scaled its radiance against its power: the product of all (n_e/n_i)².
+    pub scale: f32,
+}
+
+impl Luggage {
+    /// Of a path that leaves a sensor.
+    pub const NONE: Self = Self {
+        medium: AIR,
+        scale: 1.0,
+    };
 }
 
 /// Scratch of one thread.
@@ -279,14 +325,30 @@ pub struct Workspace {
     pub(super) wavelengths: Vec<Wavelengths>,
     /// By slot, a bit for each of the first emitters whose light is known where the path starts, and not to be gathered there.
     pub(super) known: Vec<u64>,
+    /// By slot.
+    pub(super) luggage: Vec<Luggage>,
     pub(super) hits: HitBatch,
     pub(super) vertices: Vertices,
     pub(super) mirrors: Vertices,
     /// Direction towards the viewer at each of `mirrors`.
     pub(super) viewer: [Vec<f32>; 3],
+    /// Paths at surfaces of all other models.
+    pub(super) encounters: Vec<Encounter>,
+    /// What each of `shadows` adds to, where they are those of `encounters`.
+    pub(super) lit: Vertices,
     pub(super) shadows: Shadows,
     pub(super) uniforms: [Vec<f32>; 4],
     /// Gathered light: column × slot.
     pub(super) gathered: Vec<f32>,
     pub(super) watch: StopWatch,
+}
+
+impl Workspace {
+    /// Flight `i` goes on through the surface that it met.
+    #[inline(always)]
+    pub(super) fn let_pass(&mut self, i: usize, hit: &Hit) {
+        let way = hit.distance_squared.sqrt();
+        let beyond = hit.place.beyond();
+        self.passing.pass_on(&self.flights, i, beyond, way);
+    }
 }

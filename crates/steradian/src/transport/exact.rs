@@ -3,14 +3,17 @@
 
 use steradian_kernel::{InstructionSet, RayBatch};
 
+use super::channels::counts;
 use super::shaft::View;
 use super::tables::Tables;
 use super::transmittance::Transmittance;
 use crate::geometry::{Direction, Point};
-use crate::light::Kind;
+use crate::light::{Kind, Light};
+use crate::material::Hue;
 use crate::scene::Scene;
 use crate::sensor::FluxOf;
 use crate::shape::Placed;
+use crate::spectrum::{MAX_LANES, Wavelengths};
 
 /// Irradiance by lights without extent, E = Σ E_n cosθ · V, by column; scalar irradiance Σ E_n · V without a normal.
 pub(super) fn irradiance(
@@ -54,19 +57,62 @@ pub(super) fn irradiance(
         shadows.push((light, sample));
     }
     let mut transmittance = Transmittance::default();
-    transmittance.trace(tables, &rays, InstructionSet::detect());
+    let none = Wavelengths::default();
+    transmittance.trace(tables, &rays, |_| &none, InstructionSet::detect());
     for (i, (light, sample)) in shadows.iter().enumerate() {
-        let through = f64::from(transmittance.of(i));
-        let lanes = sample
+        let Some(through) = transmittance.of(i) else {
+            continue;
+        };
+        let irradiance = sample
             .irradiance
-            .map(|lane| lane.to_watts_per_square_metre() * through);
+            .map(|lane| lane.to_watts_per_square_metre());
+        let channels = if scene.lanes().is_spectral() && through != [1.0; 4] {
+            through_colours(tables, &alone(&rays, i), light, irradiance)
+        } else {
+            let part = |lane: usize| irradiance[lane] * f64::from(through[lane]);
+            scene.channels(light, std::array::from_fn(part))
+        };
         let column = &mut columns[sample.group as usize * count..][..count];
         column
             .iter_mut()
-            .zip(scene.channels(light, lanes))
+            .zip(channels)
             .for_each(|(sum, channel)| *sum += channel);
     }
     columns
+}
+
+/// The channels of light that comes along a segment through surfaces whose transmittance may depend on the wavelength: by
+/// the midpoint rule over the cells of the run's grid.
+fn through_colours(
+    tables: &Tables<'_>,
+    ray: &RayBatch,
+    light: &Light,
+    irradiance: [f64; MAX_LANES],
+) -> Vec<f64> {
+    let hue = Hue {
+        lanes: irradiance.map(|lane| lane as f32),
+        curve: light.spectrum,
+    };
+    let mut channels = vec![0.0; tables.responses.len()];
+    let mut transmittance = Transmittance::default();
+    let groups = tables.scene.lanes().grid().into_iter();
+    for waves in groups.flat_map(|grid| grid.middles()) {
+        transmittance.trace(tables, ray, |_| &waves, InstructionSet::detect());
+        let through = transmittance.of(0).unwrap_or_default();
+        let arrives = tables.colors.hue(&hue, &waves);
+        for (sum, response) in channels.iter_mut().zip(&tables.responses) {
+            let counts = counts(response, &waves);
+            let lane = |lane: usize| f64::from(counts[lane] * arrives[lane] * through[lane]);
+            *sum += (lane(0) + lane(1)) + (lane(2) + lane(3));
+        }
+    }
+    channels
+}
+
+fn alone(rays: &RayBatch, i: usize) -> RayBatch {
+    let (mut alone, ray) = (RayBatch::default(), rays.ray(i));
+    alone.push(ray.origin, ray.direction, ray.t_max);
+    alone
 }
 
 /// How many emitters may be known to a meter.

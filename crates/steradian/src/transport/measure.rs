@@ -5,15 +5,15 @@ use std::f64::consts::PI;
 
 use super::MeasureOptions;
 use super::channels;
-use super::columns::{Flight, Place, Workspace};
+use super::columns::{Flight, Workspace};
 use super::flux::FluxMeter;
 use super::meters::{Meter, Prepared};
 use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter;
+use super::scattering::Encounter;
 use super::tables::{Candidates, Model, Receiver, Tables};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
-use crate::material::Site;
 use crate::sampling::{block, hash, warp};
 use crate::scene::Scene;
 use crate::spectrum::WavelengthDensity;
@@ -60,7 +60,7 @@ impl Meter<'_> {
             Meter::Irradiance { .. } => Mode::Hemisphere { delta: false },
             Meter::Flux(_) => Mode::Hemisphere { delta: true },
             Meter::Scalar { .. } => Mode::Sphere,
-            Meter::Surface { .. } => Mode::Surface,
+            Meter::Surface(_) => Mode::Surface,
             Meter::Ray { .. } => Mode::Ray,
         }
     }
@@ -71,7 +71,7 @@ impl Meter<'_> {
             Meter::Irradiance { .. } => PI,
             Meter::Flux(flux) => PI * flux.area,
             Meter::Scalar { .. } => 4.0 * PI,
-            Meter::Surface { .. } | Meter::Ray { .. } => 1.0,
+            Meter::Surface(_) | Meter::Ray { .. } => 1.0,
         }
     }
 }
@@ -111,6 +111,7 @@ impl<'a> Meters<'a> {
         let tables = self.tracer.tables;
         workspace.paths.vertices.clear();
         workspace.paths.mirrors.clear();
+        workspace.paths.encounters.clear();
         workspace.paths.viewer.iter_mut().for_each(Vec::clear);
         workspace.paths.flights.clear();
         for (slot, run) in runs {
@@ -187,14 +188,13 @@ impl<'a> Meters<'a> {
                         .vertices
                         .push(*place, [0.25 * FRAC_1_PI; 4], identity, [u[2], u[3]]);
                 }
-                Meter::Surface {
-                    place,
-                    side,
-                    viewer,
-                    site,
-                } => {
-                    let at = (*place, *side, *viewer, *site);
-                    self.start_at_surface(paths, at, identity, [u[2], u[3]]);
+                Meter::Surface(seen) => {
+                    let encounter = Encounter {
+                        identity,
+                        light: [u[2], u[3]],
+                        ..seen.clone()
+                    };
+                    self.start_at_surface(paths, encounter);
                 }
                 Meter::Ray { origin, direction } => paths.flights.push(Flight {
                     origin: *origin,
@@ -209,33 +209,30 @@ impl<'a> Meters<'a> {
         }
     }
 
-    fn start_at_surface(
-        &self,
-        paths: &mut Workspace,
-        (place, side, viewer, site): (Place, u32, [f32; 3], Site),
-        identity: (u32, u64, u32),
-        light: [f32; 2],
-    ) {
+    fn start_at_surface(&self, paths: &mut Workspace, seen: Encounter) {
         let tables = self.tracer.tables;
-        let side = &tables.sides[side as usize];
-        let wavelengths = paths.wavelengths[identity.0 as usize];
-        let reflectance = tables.lanes_at(&side.reflectance, &wavelengths, || site);
+        let side = &tables.sides[seen.side as usize];
+        if side.model == Model::Any {
+            paths.encounters.push(seen);
+            return;
+        }
+        let wavelengths = paths.wavelengths[seen.identity.0 as usize];
+        let reflectance = tables.lanes_at(&side.reflectance, &wavelengths, || seen.site);
         match side.model {
-            Model::Black => {}
             Model::Lambertian => paths.vertices.push(
-                place,
+                seen.place,
                 reflectance.map(|lane| lane * FRAC_1_PI),
-                identity,
-                light,
+                seen.identity,
+                seen.light,
             ),
             Model::Mirror => {
-                paths.mirrors.push(place, reflectance, identity, light);
-                paths
-                    .viewer
-                    .iter_mut()
-                    .zip(viewer)
-                    .for_each(|(column, axis)| column.push(axis));
+                let mirrors = &mut paths.mirrors;
+                mirrors.push(seen.place, reflectance, seen.identity, seen.light);
+                let viewer = paths.viewer.iter_mut().zip(seen.viewer);
+                viewer.for_each(|(column, axis)| column.push(axis));
             }
+            // A pane is met by a ray.
+            Model::Black | Model::Any | Model::Pane => {}
         }
     }
 

@@ -17,11 +17,11 @@ use super::columns::Place;
 use super::exact::{self, is_known};
 use super::flux::FluxMeter;
 use super::interaction::hit;
+use super::scattering::Encounter;
 use super::shaft::View;
-use super::tables::{Model, OPAQUE, Side, Tables};
+use super::tables::{Model, Side, Tables};
 use crate::geometry::{Direction, Point};
 use crate::light::{self, Light};
-use crate::material::Site;
 use crate::scene::Scene;
 use crate::sensor::{FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
 use crate::shape::Form;
@@ -37,12 +37,7 @@ pub(super) enum Meter<'a> {
     /// A point that takes light from everywhere.
     Scalar { place: Place, known: u64 },
     /// The reflecting surface that a ray meets.
-    Surface {
-        place: Place,
-        side: u32,
-        viewer: [f32; 3],
-        site: Site,
-    },
+    Surface(Encounter),
     /// A ray, of which nothing is known beforehand.
     Ray {
         origin: [f32; 3],
@@ -126,7 +121,8 @@ impl<'t, 'a> Context<'t, 'a> {
         context
     }
 
-    /// For each channel, whether a surface other than a light's own may reflect it: a flat or convex one does not light itself.
+    /// For each channel, whether a surface other than a light's own may reflect it: a flat or convex one does not light itself,
+    /// unless light goes through it.
     fn reflected(&self, light: &Light) -> Vec<bool> {
         let surfaces = self.scene.surfaces();
         let own = match &light.kind {
@@ -141,7 +137,8 @@ impl<'t, 'a> Context<'t, 'a> {
             let mut sides = self.tables.sides.iter().enumerate();
             self.max_depth >= 2
                 && sides.any(|(number, side)| {
-                    side.model != Model::Black && side.may_reflect(channel) && !is_own(number / 2)
+                    side.may_reflect(channel, light.is_delta())
+                        && (side.transmits || !is_own(number / 2))
                 })
         };
         (0..self.scene.lanes().count()).map(reflects).collect()
@@ -300,7 +297,7 @@ impl<'t, 'a> Context<'t, 'a> {
         let hit = hit(self.tables, rays, hits, index);
         let side = &self.tables.sides[hit.side as usize];
         let emission_varies = side.emits && self.tables.has_textures(&side.radiance);
-        if side.opacity != OPAQUE || emission_varies {
+        if side.lets_pass() || emission_varies {
             return (self.max_depth >= 1).then_some(Meter::Ray {
                 origin: hit.origin,
                 direction: hit.viewer.map(|axis| -axis),
@@ -308,12 +305,7 @@ impl<'t, 'a> Context<'t, 'a> {
         }
         exact::emission(self.scene, hit.side, exact);
         let reflects = side.model != Model::Black && self.max_depth >= 2;
-        reflects.then(|| Meter::Surface {
-            place: hit.place,
-            side: hit.side,
-            viewer: hit.viewer,
-            site: self.tables.site(&hit),
-        })
+        reflects.then(|| Meter::Surface(Encounter::seen(&hit, self.tables.site(&hit))))
     }
 
     fn flux(&self, surface: &'a FluxSurface, of: FluxOf) -> Prepared<'a> {

@@ -19,6 +19,7 @@ use super::aim::{Aim, is_aimed_at};
 use super::columns::{Place, Shadows, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::Hit;
+use super::media::AIR;
 use super::panel::{Panel, SamplePanel};
 use super::path::Tracer;
 use super::profile::Stage;
@@ -178,28 +179,63 @@ impl NextEvent<'_> {
         shadows.rays.set(i, start.into(), span.into(), reach);
     }
 
-    /// Traces the shadow rays and adds what arrives.
+    /// Traces the shadow rays of the diffuse vertices and adds what arrives.
     fn settle(&self, workspace: &mut Workspace) {
         workspace.watch.lap(Stage::Lights);
-        let (shadows, vertices) = (&mut workspace.shadows, &workspace.vertices);
-        let tables = self.tracer.tables;
+        let vertices = std::mem::take(&mut workspace.vertices);
+        if self.tracer.tables.media.is_empty() {
+            self.add_arriving(&vertices, workspace, |_| AIR);
+        } else {
+            let luggage = std::mem::take(&mut workspace.luggage);
+            self.add_arriving(&vertices, workspace, |slot| luggage[slot].medium);
+            workspace.luggage = luggage;
+        }
+        workspace.vertices = vertices;
+    }
+
+    /// The same for the surfaces of other models, which know the medium of their shadow rays.
+    pub fn settle_lit(&self, workspace: &mut Workspace) {
+        workspace.watch.lap(Stage::Lights);
+        let lit = std::mem::take(&mut workspace.lit);
+        self.add_arriving(&lit, workspace, |_| AIR);
+        workspace.lit = lit;
+    }
+
+    #[inline(always)]
+    fn add_arriving(
+        &self,
+        vertices: &Vertices,
+        workspace: &mut Workspace,
+        medium: impl Fn(usize) -> u32,
+    ) {
+        let (tables, shadows) = (self.tracer.tables, &mut workspace.shadows);
+        let all = &workspace.wavelengths;
+        let of_ray = |i: usize| &all[vertices.identity.slot[i] as usize];
         shadows
             .transmittance
-            .trace(tables, &shadows.rays, self.tracer.set);
+            .trace(tables, &shadows.rays, of_ray, self.tracer.set);
         for i in 0..vertices.len() {
-            let gain = shadows.gain[i] * shadows.transmittance.of(i);
+            let gain = shadows.gain[i];
             if gain == 0.0 {
                 continue;
             }
+            let Some(through) = shadows.transmittance.of(i) else {
+                continue;
+            };
             let emitter = &tables.emitters[shadows.emitter[i] as usize];
             let (response, slot) = (&vertices.response, vertices.identity.slot[i]);
             let wavelengths = &workspace.wavelengths[slot as usize];
             let power = tables.lanes_at(&emitter.power, wavelengths, || {
                 shadows.site(tables, emitter, i)
             });
+            let attenuation = match medium(slot as usize) {
+                AIR => [1.0; 4],
+                medium => tables.attenuation(medium, shadows.way(i), wavelengths),
+            };
             self.tracer
                 .add(&mut workspace.gathered, emitter.group, slot, |lane| {
-                    response[lane][i] * power[lane] * gain
+                    let arrives = through[lane] * attenuation[lane];
+                    response[lane][i] * power[lane] * gain * arrives
                 });
         }
         workspace.watch.lap(Stage::Shadows);
@@ -297,7 +333,7 @@ impl<'a> Aimed<'a> {
 }
 
 /// An emitter by power, and the number that is left to use.
-fn choose(tables: &Tables, candidates: Candidates, u: f32) -> (usize, f32) {
+pub(super) fn choose(tables: &Tables, candidates: Candidates, u: f32) -> (usize, f32) {
     let count = candidates.count;
     if count == 1 {
         return (0, u);

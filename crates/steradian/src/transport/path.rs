@@ -19,12 +19,14 @@
 use steradian_kernel::{InstructionSet, MISS};
 
 use super::aim::is_aimed_at;
-use super::columns::{BATCH, Flights, Place, Vertices, Workspace};
+use super::columns::{BATCH, Flights, Luggage, Place, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::{Hit, hit};
+use super::media::AIR;
 use super::next_event::NextEvent;
 use super::profile::Stage;
 use super::scatter;
+use super::scattering::Encounter;
 use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, OPAQUE, Receiver, Side, Tables};
 use crate::material::Site;
 use crate::sampling::hash;
@@ -60,10 +62,13 @@ impl Tracer<'_> {
         workspace.known.resize(slots, 0);
         workspace.wavelengths.clear();
         workspace.wavelengths.resize(slots, Wavelengths::default());
+        workspace.luggage.clear();
+        workspace.luggage.resize(slots, Luggage::NONE);
         workspace.flights.clear();
         workspace.passing.clear();
         workspace.vertices.clear();
         workspace.mirrors.clear();
+        workspace.encounters.clear();
     }
 
     /// Follows the flights until every path has ended.
@@ -83,6 +88,7 @@ impl Tracer<'_> {
             workspace.watch.lap(Stage::Closest);
             workspace.vertices.clear();
             workspace.mirrors.clear();
+            workspace.encounters.clear();
             workspace.viewer.iter_mut().for_each(Vec::clear);
             self.arrive(workspace, candidates);
             workspace.watch.lap(Stage::Arrive);
@@ -110,6 +116,9 @@ impl Tracer<'_> {
     /// Adds emission found at the hits and collects the vertices that reflect.
     fn arrive(&self, workspace: &mut Workspace, candidates: Candidates) {
         let tables = self.tables;
+        if !tables.media.is_empty() {
+            attenuate(tables, workspace);
+        }
         for i in 0..workspace.flights.len() {
             let slot = workspace.flights.identity.slot[i];
             let wavelengths = &workspace.wavelengths[slot as usize];
@@ -136,41 +145,68 @@ impl Tracer<'_> {
                 });
             }
             if side.opacity != OPAQUE && self.passes(&workspace.flights, i, side, &hit) {
-                let way = hit.distance_squared.sqrt();
-                let beyond = hit.place.beyond();
-                workspace
-                    .passing
-                    .pass_on(&workspace.flights, i, beyond, way);
+                workspace.let_pass(i, &hit);
                 continue;
             }
-            if side.model == Model::Black {
-                continue;
+            if matches!(side.model, Model::Lambertian | Model::Mirror) {
+                let reflectance =
+                    tables.lanes_at(&side.reflectance, wavelengths, || tables.site(&hit));
+                self.reflect_at(workspace, i, &hit, &reflectance);
+            } else if side.model == Model::Any {
+                let site = tables.site(&hit);
+                let encounter = Encounter::of_flight(&workspace.flights, i, &hit, site);
+                workspace.encounters.push(encounter);
+            } else if side.model == Model::Pane {
+                self.arrive_at_pane(workspace, i, &hit);
             }
-            let reflectance = tables.lanes_at(&side.reflectance, wavelengths, || tables.site(&hit));
-            match side.model {
-                Model::Black => {}
-                Model::Lambertian => push(
-                    &mut workspace.vertices,
-                    &workspace.flights,
-                    i,
-                    hit.place,
-                    &reflectance,
-                    std::f32::consts::FRAC_1_PI,
-                ),
-                Model::Mirror => {
-                    push(
-                        &mut workspace.mirrors,
-                        &workspace.flights,
-                        i,
-                        hit.place,
-                        &reflectance,
-                        1.0,
-                    );
-                    for (column, axis) in workspace.viewer.iter_mut().zip(hit.viewer) {
-                        column.push(axis);
-                    }
-                }
+        }
+    }
+
+    /// Collects a vertex that is a Lambertian reflector or a mirror.
+    #[inline(always)]
+    fn reflect_at(&self, workspace: &mut Workspace, i: usize, hit: &Hit, reflectance: &Lanes4) {
+        let flights = &workspace.flights;
+        if self.tables.sides[hit.side as usize].model == Model::Lambertian {
+            let vertices = &mut workspace.vertices;
+            let factor = std::f32::consts::FRAC_1_PI;
+            push(vertices, flights, i, hit.place, reflectance, factor);
+            return;
+        }
+        push(
+            &mut workspace.mirrors,
+            flights,
+            i,
+            hit.place,
+            reflectance,
+            1.0,
+        );
+        for (column, axis) in workspace.viewer.iter_mut().zip(hit.viewer) {
+            column.push(axis);
+        }
+    }
+
+    /// Lets a path go straight through a pane or reflects it, in proportion to the light that each leaves to it: its
+    /// greatest lane grows at most to the sum of all.
+    fn arrive_at_pane(&self, workspace: &mut Workspace, i: usize, hit: &Hit) {
+        let flights = &mut workspace.flights;
+        let wavelengths = &workspace.wavelengths[flights.identity.slot[i] as usize];
+        let side = &self.tables.sides[hit.side as usize];
+        let [reflected, passed] = self.tables.pane(side, hit, wavelengths);
+        let lanes = || (0..self.tables.lanes).map(|lane| (lane, flights.throughput[lane][i]));
+        let all: f32 = lanes().map(|(_, part)| part).sum();
+        let left: f32 = lanes().map(|(lane, part)| part * passed[lane]).sum();
+        let share = left / all;
+        if all == 0.0 {
+            return;
+        }
+        if self.number_for(flights, i, hit) < share {
+            for (lane, column) in flights.throughput.iter_mut().enumerate() {
+                column[i] *= passed[lane] / share;
             }
+            workspace.let_pass(i, hit);
+        } else {
+            let reflected = reflected.map(|lane| lane / (1.0 - share));
+            self.reflect_at(workspace, i, hit, &reflected);
         }
     }
 
@@ -192,11 +228,16 @@ impl Tracer<'_> {
     #[inline(always)]
     fn passes(&self, flights: &Flights, i: usize, side: &Side, hit: &Hit) -> bool {
         let opacity = self.tables.opacity(side, || self.tables.site(hit));
+        opacity.is_some_and(|opacity| self.number_for(flights, i, hit) >= opacity)
+    }
+
+    /// A uniform number for this meeting of a path and a surface.
+    fn number_for(&self, flights: &Flights, i: usize, hit: &Hit) -> f32 {
         let (_, key, index) = flights.identity.at(i);
         // The numbers for the next light differ from segment to segment.
         let segment = flights.travelled[i].to_bits() ^ hash::mix_32(flights.light_u[i].to_bits());
         let place = hash::mix_32(hit.primitive ^ hash::mix_32(segment));
-        opacity.is_some_and(|opacity| scatter::number_at(key, index, place) >= opacity)
+        scatter::number_at(key, index, place)
     }
 
     fn escape(&self, flights: &Flights, i: usize, wavelengths: &Wavelengths, gathered: &mut [f32]) {
@@ -244,6 +285,26 @@ impl Tracer<'_> {
         let group = if self.merge_groups { 0 } else { group as usize };
         for lane in 0..self.tables.lanes {
             gathered[(group * self.tables.lanes + lane) * BATCH + slot as usize] += value(lane);
+        }
+    }
+}
+
+/// Takes from every flight what the medium on its way absorbs.
+fn attenuate(tables: &Tables<'_>, workspace: &mut Workspace) {
+    let flights = &mut workspace.flights;
+    for i in 0..flights.len() {
+        let slot = flights.identity.slot[i] as usize;
+        let medium = workspace.luggage[slot].medium;
+        if medium == AIR {
+            continue;
+        }
+        let way = match workspace.hits.primitive[i] {
+            MISS => f32::INFINITY,
+            _ => workspace.hits.t[i],
+        };
+        let part = tables.attenuation(medium, way, &workspace.wavelengths[slot]);
+        for (lane, column) in flights.throughput.iter_mut().enumerate() {
+            column[i] *= part[lane];
         }
     }
 }

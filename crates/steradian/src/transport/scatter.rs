@@ -10,6 +10,7 @@ use steradian_kernel::Work;
 
 use super::columns::{Flight, Flights, Identity, Vertices, Workspace};
 use super::path::Tracer;
+use super::scattering;
 use crate::sampling::{block, hash, warp};
 use crate::spectrum::MAX_LANES;
 
@@ -23,6 +24,7 @@ pub(super) fn reflect(tracer: &Tracer, workspace: &mut Workspace, segment: u32) 
     );
     leave_diffusely(tracer, workspace, Some(segment));
     leave_mirrors(workspace, segment);
+    scattering::scatter(tracer, workspace, segment);
 }
 
 /// Sends a path out of every vertex with density cosθ/π; without `roulette` (a segment number) all of them survive.
@@ -169,10 +171,9 @@ fn leave_mirrors(workspace: &mut Workspace, segment: u32) {
         let greatest = response
             .iter()
             .fold(0.0_f32, |greatest, lane| greatest.max(*lane));
-        let q = survival_probability(greatest, segment);
-        if roulette_number(identity.1, identity.2, segment) >= q {
+        let Some(q) = survives(greatest, identity, segment) else {
             continue;
-        }
+        };
         let place = mirrors.place(i);
         let viewer = Vec3::from_array(workspace.viewer.each_ref().map(|column| column[i]));
         let normal = Vec3::from_array(place.normal);
@@ -205,6 +206,16 @@ const ENDLESS: u32 = 4096;
 fn survival_probability(throughput: f32, segment: u32) -> f32 {
     let most = if segment < ENDLESS { 1.0 } else { 0.99 };
     (throughput * (1.0 / ROULETTE_BELOW)).min(most)
+}
+
+/// The probability of survival of a path of this throughput, if it survives.
+pub(super) fn survives(
+    throughput: f32,
+    (_, key, index): (u32, u64, u32),
+    segment: u32,
+) -> Option<f32> {
+    let q = survival_probability(throughput, segment);
+    (roulette_number(key, index, segment) < q).then_some(q)
 }
 
 /// A uniform number in [0, 1) that depends on the path and the segment only.

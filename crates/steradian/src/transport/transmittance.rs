@@ -1,43 +1,51 @@
 //! How much light gets along a segment: surfaces that are not opaque let a part pass undeviated.
 //!
-//! T = Π (1 − α) over the surfaces on the segment, 0 at the first opaque one. Without such surfaces in the scene it is
-//! the kernel's any-hit query; else the segments that it stops are followed from surface to surface.
+//! T = Π ((1 − α) + α τ(θ)) over the surfaces on the segment, with their opacity α and, of a pane, the share τ that goes
+//! straight through at the angle of the segment; 0 at the first surface that lets nothing pass. Without such surfaces in the
+//! scene it is the kernel's any-hit query; else the segments that it stops are followed from surface to surface.
 
 use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
 
 use super::interaction::hit;
-use super::tables::Tables;
+use super::tables::{Lanes4, Tables};
+use crate::spectrum::Wavelengths;
 
 /// What gets along the segments of a batch.
 #[derive(Default)]
 pub(super) struct Transmittance {
     stopped: Vec<bool>,
-    /// T of each segment; empty where every surface is opaque.
-    parts: Vec<f32>,
+    /// T of each segment that was stopped; empty where no surface lets anything pass.
+    parts: Vec<Lanes4>,
 }
 
 impl Transmittance {
-    /// Traces the segments.
-    pub fn trace(&mut self, tables: &Tables<'_>, rays: &RayBatch, set: InstructionSet) {
+    /// Traces the segments of paths of these wavelengths.
+    pub fn trace<'w>(
+        &mut self,
+        tables: &Tables<'_>,
+        rays: &RayBatch,
+        wavelengths: impl Fn(usize) -> &'w Wavelengths,
+        set: InstructionSet,
+    ) {
         tables
             .scene
             .surfaces()
             .occluded(rays, &mut self.stopped, set);
         self.parts.clear();
-        if !tables.opacities.is_empty() {
-            self.parts.resize(self.stopped.len(), 0.0);
-            Stepping::new(rays, &self.stopped).follow(tables, &mut self.parts, set);
+        if tables.lets_pass {
+            self.parts.resize(self.stopped.len(), [0.0; 4]);
+            Stepping::new(rays, &self.stopped).follow(tables, &mut self.parts, wavelengths, set);
         }
     }
 
-    /// T of a segment.
+    /// T of a segment; `None` for 0.
     #[inline(always)]
-    pub fn of(&self, segment: usize) -> f32 {
-        if self.stopped[segment] {
-            self.parts.get(segment).copied().unwrap_or(0.0)
-        } else {
-            1.0
+    pub fn of(&self, segment: usize) -> Option<Lanes4> {
+        if !self.stopped[segment] {
+            return Some([1.0; 4]);
         }
+        let part = self.parts.get(segment).copied();
+        part.filter(|lanes| *lanes != [0.0; 4])
     }
 }
 
@@ -45,7 +53,7 @@ impl Transmittance {
 struct Stepping {
     rays: RayBatch,
     /// Number of the segment, its end (`None`: infinitely far), and T so far.
-    open: Vec<(usize, Option<[f32; 3]>, f32)>,
+    open: Vec<(usize, Option<[f32; 3]>, Lanes4)>,
 }
 
 impl Stepping {
@@ -63,20 +71,32 @@ impl Stepping {
             ];
             let end = (rays.t_max[i] == 1.0).then(|| std::array::from_fn(|k| origin[k] + span[k]));
             stepping.rays.push(origin, span, rays.t_max[i]);
-            stepping.open.push((i, end, 1.0));
+            stepping.open.push((i, end, [1.0; 4]));
         }
         stepping
     }
 
-    fn follow(mut self, tables: &Tables<'_>, out: &mut [f32], set: InstructionSet) {
+    fn follow<'w>(
+        mut self,
+        tables: &Tables<'_>,
+        out: &mut [Lanes4],
+        wavelengths: impl Fn(usize) -> &'w Wavelengths,
+        set: InstructionSet,
+    ) {
         let mut hits = HitBatch::default();
         while !self.open.is_empty() {
             tables.scene.surfaces().closest(&self.rays, &mut hits, set);
-            self = self.step(tables, &hits, out);
+            self = self.step(tables, &hits, out, &wavelengths);
         }
     }
 
-    fn step(self, tables: &Tables<'_>, hits: &HitBatch, out: &mut [f32]) -> Self {
+    fn step<'w>(
+        self,
+        tables: &Tables<'_>,
+        hits: &HitBatch,
+        out: &mut [Lanes4],
+        wavelengths: &impl Fn(usize) -> &'w Wavelengths,
+    ) -> Self {
         let mut next = Self {
             rays: RayBatch::default(),
             open: vec![],
@@ -88,8 +108,11 @@ impl Stepping {
             }
             let hit = hit(tables, &self.rays, hits, i);
             let side = &tables.sides[hit.side as usize];
-            let passes = 1.0 - tables.opacity(side, || tables.site(&hit)).unwrap_or(1.0);
-            if passes > 0.0 {
+            if !side.lets_pass() {
+                continue;
+            }
+            let passes = tables.passing(side, &hit, wavelengths(segment));
+            if passes != [0.0; 4] {
                 let origin = hit.place.beyond();
                 let rays = &self.rays;
                 let old = [
@@ -99,7 +122,8 @@ impl Stepping {
                 ];
                 let span = end.map_or(old, |end| std::array::from_fn(|k| end[k] - origin[k]));
                 next.rays.push(origin, span, rays.t_max[i]);
-                next.open.push((segment, end, before * passes));
+                let part = std::array::from_fn(|lane| before[lane] * passes[lane]);
+                next.open.push((segment, end, part));
             }
         }
         next

@@ -1,35 +1,73 @@
 //! Path classes that no active estimator can sample.
 //!
-//! A light without extent is found by next-event estimation only, and a mirror reflects one direction only: the light
-//! that a mirror throws from such a light onto other surfaces, and its image in the mirror, are not sampled. They are
-//! told, never left out in silence.
+//! A light without extent is found by next-event estimation only, and a polished surface couples single directions only:
+//! the light that such a surface throws from such a light onto other surfaces, and its image there, are not sampled. They
+//! are told, never left out in silence. What a pane lets straight through is not among them: next-event rays pass.
 
+use crate::brdf::Scatter;
+use crate::geometry::{Direction, Vector};
+use crate::material::{ColorLanes, Material, MaterialId, Site};
 use crate::scene::Scene;
+use crate::spectrum::Wavelengths;
 
 /// One sentence for each class that is missing.
 pub fn unsampled(scene: &Scene) -> Vec<String> {
-    let mirrors: Vec<_> = scene
-        .materials()
+    let lamps = || scene.lights().iter().filter(|light| light.is_delta());
+    if lamps().next().is_none() {
+        return vec![];
+    }
+    let mut used: Vec<_> = scene
+        .parts()
         .iter()
-        .filter(|(_, material)| material.is_specular())
-        .map(|(name, _)| name.as_str())
+        .flat_map(|p| [p.front, p.back])
         .collect();
-    let used = |name: &&str| {
-        let is = |id: crate::material::MaterialId| scene.materials()[id.0 as usize].0 == *name;
-        scene
-            .parts()
-            .iter()
-            .any(|part| is(part.front) || is(part.back))
+    used.sort_unstable_by_key(|id| id.0);
+    used.dedup();
+    let polished: Vec<_> = used
+        .into_iter()
+        .filter_map(|id| Some((id, missing(scene.material(id))?)))
+        .collect();
+    let of_lamp = |name: &str| {
+        let sentence = |(id, what): &(MaterialId, &str)| {
+            let material = &scene.materials()[id.0 as usize].0;
+            format!("light of `{name}` {what} of material `{material}`")
+        };
+        polished.iter().map(sentence).collect::<Vec<_>>()
     };
-    let mirrors: Vec<_> = mirrors.into_iter().filter(used).collect();
-    let lights = scene.lights().iter().filter(|light| light.is_delta());
-    let pairs = lights.flat_map(|light| mirrors.iter().map(move |mirror| (light, mirror)));
-    pairs
-        .map(|(light, mirror)| {
-            format!(
-                "light of `{}` reflected by mirrors of material `{mirror}`",
-                light.name
-            )
-        })
-        .collect()
+    lamps().flat_map(|light| of_lamp(&light.name)).collect()
+}
+
+/// What a material does to light in single directions, if anything.
+fn missing(material: &Material) -> Option<&'static str> {
+    let [reflects, refracts] = single_directions(material);
+    Some(match (reflects, refracts && !material.is_pane()) {
+        (true, false) if material.is_pane() => "reflected by panes",
+        (true, false) if material.is_specular() => "reflected by mirrors",
+        (true, false) => "reflected by the polish",
+        (true, true) => "reflected and refracted by surfaces",
+        (false, true) => "refracted by surfaces",
+        (false, false) => return None,
+    })
+}
+
+/// How many numbers a model is asked with: one that takes its single directions less often goes unnoticed.
+const NUMBERS: u32 = 1024;
+
+/// Whether a model takes single directions on this side of the surface, and on the other one.
+fn single_directions(material: &Material) -> [bool; 2] {
+    let colors = ColorLanes::Grey;
+    let Some(brdf) = material.brdf(&Site::NOWHERE, &colors, &Wavelengths::default()) else {
+        return [false; 2];
+    };
+    let mut found = [false; 2];
+    let slanting = Direction::new(Vector::new(0.6, 0.0, 0.8));
+    for wo in slanting.into_iter().flat_map(|wo| [wo, -wo]) {
+        for number in 0..NUMBERS {
+            let u = (f64::from(number) + 0.5) / f64::from(NUMBERS);
+            if let Some(scatter @ Scatter::Specular { .. }) = brdf.sample(wo, [u, 0.5]) {
+                found[usize::from(scatter.is_transmitted(wo))] = true;
+            }
+        }
+    }
+    found
 }

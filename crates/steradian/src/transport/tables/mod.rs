@@ -10,8 +10,9 @@ use emitters::{choose_by_power, emitters};
 pub(super) use outlines::{Facet, Outline, circumscribed};
 use sides::{Tints, emitting};
 
+use super::media::Beside;
 use crate::light::{Beam, Kind};
-use crate::material::{ColorLanes, Opacity, Tint};
+use crate::material::{ColorLanes, Hue, MaterialId, Opacity, Tint};
 use crate::scene::Scene;
 use crate::shape::ShapeId;
 use crate::spectrum::{BakedCurve, Curve, MAX_LANES};
@@ -28,6 +29,10 @@ pub(super) enum Model {
     Black,
     Lambertian,
     Mirror,
+    /// Reflects as a mirror, and lets a part pass straight.
+    Pane,
+    /// Its [`Brdf`](crate::brdf::Brdf) is asked at each vertex.
+    Any,
 }
 
 /// Lanes that may vary over a surface or with the wavelength.
@@ -53,6 +58,13 @@ pub(super) struct Side {
     pub radiance: Tinted,
     /// Number among the opacities; none of that number if it is opaque.
     pub opacity: u32,
+    pub material: MaterialId,
+    /// The model's normal is that of the front, whichever side this is: light goes through.
+    pub transmits: bool,
+    /// It couples single directions only.
+    pub is_specular: bool,
+    /// What absorbs before and behind the surface, if light that goes through changes the medium.
+    pub media: Option<Beside>,
     pub model: Model,
     /// Number of the emitter in [`Tables::emitters`], or [`NO_EMITTER`] where next-event estimation cannot find it.
     pub emitter: u32,
@@ -61,10 +73,22 @@ pub(super) struct Side {
 }
 
 impl Side {
-    /// False only if it reflects nothing of a channel.
-    pub fn may_reflect(&self, channel: usize) -> bool {
+    /// False only if it reflects nothing of a channel that an estimator could find: of a light without extent a
+    /// polished surface shows nothing.
+    pub fn may_reflect(&self, channel: usize, delta: bool) -> bool {
+        match self.model {
+            Model::Black => return false,
+            _ if delta && self.is_specular => return false,
+            Model::Pane | Model::Any => return true,
+            Model::Lambertian | Model::Mirror => {}
+        }
         let lane = self.reflectance.lanes.get(channel);
         self.reflectance.tint != NO_TINT || lane.is_none_or(|lane| *lane > 0.0)
+    }
+
+    /// Whether a part of the light passes straight through.
+    pub fn lets_pass(&self) -> bool {
+        self.opacity != OPAQUE || self.model == Model::Pane
     }
 }
 
@@ -164,6 +188,10 @@ pub(super) struct Tables<'a> {
     pub tints: Vec<Tint>,
     /// Of sides that are not opaque.
     pub opacities: Vec<Opacity>,
+    /// That absorb, on some side of a surface.
+    pub media: Vec<Hue>,
+    /// A surface somewhere lets a part of the light pass straight through.
+    pub lets_pass: bool,
     /// What curves and colours are in the lanes.
     pub colors: ColorLanes,
     /// The channels of a spectral run.
@@ -177,7 +205,8 @@ impl<'a> Tables<'a> {
         let powers: Vec<_> = lights.map(|light| tints.of_light(light)).collect();
         let materials = scene.materials().iter();
         let plain: Vec<_> = materials
-            .map(|(_, material)| tints.of_material(material))
+            .enumerate()
+            .map(|(number, (_, material))| tints.of_material(MaterialId(number as u32), material))
             .collect();
         let (mut emitters, emitter_of_light) = emitters(scene, &powers);
         let extended = emitters.iter().filter(|emitter| !emitter.shape.is_delta());
@@ -194,6 +223,7 @@ impl<'a> Tables<'a> {
             })
         });
         let sides: Vec<_> = sides.collect();
+        let lets_pass = sides.iter().any(Side::lets_pass);
         let everywhere = scene.lights().iter().zip(&powers);
         let everywhere =
             everywhere.filter(|(light, _)| matches!(light.kind, Kind::Environment { .. }));
@@ -213,6 +243,8 @@ impl<'a> Tables<'a> {
             colors: ColorLanes::new(scene.lanes(), scene.curves()),
             tints: tints.tints,
             opacities: tints.opacities,
+            media: tints.media,
+            lets_pass,
         }
     }
 

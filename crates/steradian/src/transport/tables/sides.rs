@@ -2,9 +2,10 @@
 //!
 //! Materials and lights get their tints once, by number, however many sides have them.
 
+use super::super::media::Beside;
 use super::{Model, NO_EMITTER, NO_TINT, OPAQUE, Side, Tinted};
 use crate::light::{Kind, Light, LightId};
-use crate::material::{self, Hue, Material, Opacity, Tint};
+use crate::material::{self, Hue, Material, MaterialId, Opacity, Tint};
 use crate::scene::Scene;
 
 /// Collects what varies.
@@ -12,6 +13,7 @@ use crate::scene::Scene;
 pub(super) struct Tints {
     pub tints: Vec<Tint>,
     pub opacities: Vec<Opacity>,
+    pub media: Vec<Hue>,
 }
 
 impl Tints {
@@ -46,21 +48,17 @@ impl Tints {
     }
 
     /// A side of a material that does not emit.
-    pub fn of_material(&mut self, material: &Material) -> Side {
-        let is_black = |tint: &Tint| tint.hue.lanes == [0.0; 4];
-        let model = match material.model {
-            _ if material.reflectance().is_none_or(is_black) => Model::Black,
-            // A scene refuses recipes.
-            material::Model::Black | material::Model::Recipe(_) => Model::Black,
-            material::Model::Lambertian { .. } => Model::Lambertian,
-            material::Model::Mirror { .. } => Model::Mirror,
-        };
+    pub fn of_material(&mut self, id: MaterialId, material: &Material) -> Side {
         let reflectance = material.reflectance().cloned();
         Side {
             reflectance: reflectance.map_or(Tinted::BLACK, |tint| self.add(tint)),
             radiance: Tinted::BLACK,
             opacity: self.opacity(material.opacity.as_ref()),
-            model,
+            material: id,
+            transmits: material.transmits(),
+            is_specular: material.is_specular(),
+            media: Beside::number(&material.media, &mut self.media),
+            model: model(material),
             emitter: NO_EMITTER,
             group: 0,
             emits: false,
@@ -72,6 +70,18 @@ impl Tints {
             self.opacities.push(opacity.clone());
             self.opacities.len() as u32 - 1
         })
+    }
+}
+
+fn model(material: &Material) -> Model {
+    let is_black = |tint: &Tint| tint.hue.lanes == [0.0; 4];
+    match material.model {
+        _ if material.reflectance().is_some_and(is_black) => Model::Black,
+        material::Model::Black => Model::Black,
+        material::Model::Lambertian { .. } => Model::Lambertian,
+        material::Model::Mirror { .. } => Model::Mirror,
+        material::Model::Recipe(_) if material.is_pane() => Model::Pane,
+        material::Model::Recipe(_) => Model::Any,
     }
 }
 
