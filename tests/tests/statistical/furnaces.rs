@@ -80,7 +80,7 @@ fn a_plate_of_any_model_shows_what_its_albedo_says() {
             let brdf = model(&validated);
             let transmits = validated.materials()[1].1.transmits();
             let viewer = Vector::new(-0.5, -0.3, if transmits { z } else { 1.0 });
-            let wo = Direction::new(viewer).unwrap();
+            let wo = Direction::new(viewer).expect("a direction");
             let through = brdf.transmittance(wo) * brdf.radiance_scale(wo, -wo);
             let expected = f64::from((brdf.albedo(wo) + through).to_lanes()[0]);
             let seen = reading(&measured(&scene, &samples(1 << 14)), "L").estimate;
@@ -171,7 +171,7 @@ fn a_path_keeps_its_medium_until_the_next_interface() {
     options.max_depth = Some(3);
     let seen = reading(&measured(&scene, &options), "L").estimate;
     let (height, across) = (0.4, 0.3);
-    let way = f64::hypot(height, across);
+    let way = libm::hypot(height, across);
     let irradiance = height / (way * way * way) * libm::exp(-absorption * way);
     let expected = 0.5 / std::f64::consts::PI * irradiance * libm::exp(-absorption * depth);
     assert_close("water", seen.value, expected, 1e-5 * expected);

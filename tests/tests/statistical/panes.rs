@@ -12,7 +12,7 @@ const TRANSMITTANCE: f64 = 0.8;
 
 /// T(θ) of the pane.
 fn through(cos_theta: f64) -> f64 {
-    let pane = Pane::new(1.5, [TRANSMITTANCE; 4]).unwrap();
+    let pane = Pane::new(1.5, [TRANSMITTANCE; 4]).expect("glass");
     pane.shares(cos_theta)[0].1
 }
 
@@ -75,7 +75,7 @@ fn surfaces_behind_a_pane_are_lit_through_it() {
     let mut options = samples(1 << 16);
     options.max_depth = Some(2);
     let seen = reading(&measured(&scene, &options), "L").estimate;
-    let (squared, distance) = (4.0 + 1.5 * 1.5, f64::hypot(height, back));
+    let (squared, distance) = (4.0 + 1.5 * 1.5, libm::hypot(height, back));
     let cos_theta = 2.0 / f64::sqrt(squared);
     let irradiance = 10.0 * cos_theta / squared * through(cos_theta);
     let expected = 0.5 / PI * irradiance * through(height / distance);
