@@ -140,8 +140,13 @@ pub fn conductor_average(eta: f64, kappa: f64) -> f64 {
 /// Schlick's approximation R₀ + (1 − R₀)(1 − cosθ)⁵, as glTF defines it (C. Schlick, Computer Graphics Forum 13 (1994)
 /// 233, eq. 24). Up to a third off for real materials: use it only where a format asks for it.
 pub fn schlick(cos_incident: f64, normal_reflectance: f64) -> f64 {
+    normal_reflectance + (1.0 - normal_reflectance) * schlick_rise(cos_incident)
+}
+
+/// (1 − cosθ)⁵: how far Schlick's reflectance has risen from that along the normal to that at the horizon.
+pub(super) fn schlick_rise(cos_incident: f64) -> f64 {
     let c = 1.0 - cos_incident.clamp(0.0, 1.0);
-    normal_reflectance + (1.0 - normal_reflectance) * (c * c) * (c * c) * c
+    (c * c) * (c * c) * c
 }
 
 #[cfg(test)]

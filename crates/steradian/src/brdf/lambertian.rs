@@ -73,3 +73,22 @@ impl Lambertian {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::brdf::tests::cases::{assert_case, cases_of};
+
+    /// Values are single precision.
+    #[test]
+    fn values_and_albedos_agree_with_the_reference_cases() {
+        for case in cases_of("lambert", 3) {
+            let reflectance = Spectrum::splat(case.number("reflectance") as f32);
+            let model = Lambertian { reflectance };
+            let value = f64::from(model.evaluate(Direction::Z, Direction::Z).mean());
+            assert_case(&case, "f", value, 1e-7);
+            let albedo = f64::from(model.albedo(Direction::Z).mean());
+            assert_case(&case, "rho_dh", albedo, 1e-7);
+        }
+    }
+}

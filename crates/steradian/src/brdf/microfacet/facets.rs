@@ -36,7 +36,7 @@ use crate::brdf::error::in_range;
 use crate::geometry::{Direction, Vector};
 
 /// The distribution of slopes.
-#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+#[derive(Copy, Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Slopes {
     /// Of Trowbridge and Reitz, with long tails.
     Ggx,
@@ -45,7 +45,7 @@ pub enum Slopes {
 }
 
 /// Whether facets that hide from one direction tend to hide from the other.
-#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+#[derive(Copy, Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Shadowing {
     /// High facets are seen from everywhere: G₂ = 1/(1 + Λ_e + Λ_i).
     HeightCorrelated,
@@ -96,13 +96,45 @@ impl Facets {
         self.alpha[0] == self.alpha[1]
     }
 
-    /// The direction turned about the normal to where symmetry helps: azimuth 0, if the surface is isotropic.
-    pub(super) fn turned(&self, direction: Direction) -> Direction {
-        if !self.is_isotropic() {
-            return direction;
+    /// The distribution of slopes.
+    pub const fn slopes(&self) -> Slopes {
+        self.slopes
+    }
+
+    /// The widths along x and y.
+    pub const fn widths(&self) -> [f64; 2] {
+        self.alpha
+    }
+
+    /// Whether masking and shadowing are correlated.
+    pub const fn visibility(&self) -> Shadowing {
+        self.shadowing
+    }
+
+    /// As rough along x as along y, by this width.
+    pub(super) const fn with_width(self, alpha: f64) -> Self {
+        Self {
+            alpha: [alpha; 2],
+            ..self
         }
-        let z = direction.z();
-        Direction::from_polar((1.0 - z * z).max(0.0).sqrt(), z, 0.0)
+    }
+
+    /// α along a tangential direction of length 1, and α²/(α_x α_y).
+    pub(super) fn width_along(&self, [x, y]: [f64; 2]) -> (f64, f64) {
+        let [p, q] = [x / self.alpha[0], y / self.alpha[1]];
+        let square = 1.0 / (p * p + q * q);
+        (square.sqrt(), square / (self.alpha[0] * self.alpha[1]))
+    }
+
+    /// √(α_y/α_x), if the surface is anisotropic.
+    pub(super) fn stretch(&self) -> Option<f64> {
+        (!self.is_isotropic()).then(|| (self.alpha[1] / self.alpha[0]).sqrt())
+    }
+
+    /// How many times as many azimuths as an isotropic surface it takes to see these facets all around.
+    pub(super) fn azimuths(&self) -> usize {
+        let ratio = self.alpha[0].max(self.alpha[1]) / self.alpha[0].min(self.alpha[1]);
+        (ratio.ceil() as usize).min(12)
     }
 
     /// D(m).

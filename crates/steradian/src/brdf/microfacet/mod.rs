@@ -4,44 +4,16 @@
 //! given back by a second, diffuse lobe, unless the model is asked for single scattering.
 
 mod facets;
-mod missing;
+mod interface_light;
+mod quadrature;
 mod rough_conductor;
 mod rough_dielectric;
+mod shelf;
+mod table;
 
 pub use facets::{Facets, Shadowing, Slopes};
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
-
-use crate::geometry::{Direction, gauss};
-
-/// Panels that make an albedo true to 5e-4 for GGX: 32 × 32 points.
-const PANELS: u32 = 2;
-
-/// Mean of a function of the unit square whose numbers draw facets seen from `wo`.
-///
-/// Light of the steepest facets, near u₀ = 1, is what shadowing takes away: u₀ = 1 − s² crowds the points there. In s Gauss's
-/// rule of order 16 in each of `panels` panels, in u₁ as many points by the midpoint rule; half of u₁ is enough if the facets
-/// are the same on both sides of the plane of `wo`.
-fn mean_over_facets<const N: usize>(
-    wo: Direction,
-    panels: u32,
-    f: impl Fn([f64; 2]) -> [f64; N],
-) -> [f64; N] {
-    let count = panels * gauss::MAX_ORDER as u32;
-    let span = if wo.y() == 0.0 { 0.5 } else { 1.0 };
-    let mut sum = [0.0; N];
-    for panel in 0..panels {
-        for &(node, weight) in gauss::rule(gauss::MAX_ORDER) {
-            let s = (f64::from(panel) + 0.5 * (1.0 + node)) / f64::from(panels);
-            let scale = weight * s / (f64::from(panels) * f64::from(count));
-            for j in 0..count {
-                let value = f([1.0 - s * s, span * (f64::from(j) + 0.5) / f64::from(count)]);
-                (0..N).for_each(|k| sum[k] += scale * value[k]);
-            }
-        }
-    }
-    sum
-}
 
 #[cfg(test)]
 mod tests;

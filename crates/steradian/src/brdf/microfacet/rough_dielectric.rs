@@ -16,7 +16,7 @@
 //!
 //! What is missing is given back by (1 − t_a) M_a M_a/(π M̄_a) on the same side a and t_b M_b M_a/(π M̄_a) from the other
 //! side b, with t_a = min(M̄_a, M̄_b)/M̄_a (1 − F̄_a): reciprocal, as n_a² M̄_a t_a = n_b² M̄_b t_b, and albedo and
-//! transmittance add up to 1 at every angle (measured for α = .05 … 1: within 2e-3 for GGX, 5e-3 for Beckmann).
+//! transmittance add up to 1 at every angle (measured for α = .05 … 1: within 1.5e-3).
 //!
 //! Facets are drawn as seen from d_e, a number hashed from the two used decides by F between the
 //! sides (weight at most 1, over η² when transmitted); the rest
@@ -36,10 +36,11 @@
 //! ```
 
 use std::f64::consts::FRAC_1_PI;
-use std::sync::Arc;
 
-use super::missing::MissingLight;
-use super::{Facets, mean_over_facets};
+use super::facets::{Facets, Shadowing, Slopes};
+use super::interface_light::first_shares;
+use super::shelf::{Blend, Recent, Shelf};
+use super::table::Table;
 use crate::brdf::error::in_range;
 use crate::brdf::fresnel::{dielectric, dielectric_average, refract};
 use crate::brdf::sampling::choose;
@@ -48,24 +49,21 @@ use crate::geometry::{Direction, Vector};
 use crate::quantity::Spectrum;
 use crate::sampling::hash::combine;
 
-/// Panels that make the shares true to 2e-3 in spite of the edge of total internal reflection.
-const PANELS: u32 = 5;
-
 /// A rough interface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoughDielectric {
     facets: Facets,
     /// The index inside over the index outside.
     eta: f64,
-    later: Option<Arc<[LaterLight; 2]>>,
+    later: Option<LaterLight>,
 }
 
 /// What one facet does not send away, outside and inside.
 #[derive(Clone, Debug, PartialEq)]
 struct LaterLight {
-    missing: MissingLight,
+    shares: Blend<2>,
     /// t_a.
-    transmitted: f64,
+    transmitted: [f64; 2],
 }
 
 /// Both directions as seen from the side of `wo`, which is made the upper one.
@@ -81,31 +79,23 @@ struct View {
 impl RoughDielectric {
     /// With multiple scattering, from the index inside over the index outside.
     ///
+    /// Isotropic surfaces of one index share their tables, whatever their roughness; an anisotropic one is made in about
+    /// half a second unless one like it was made before, so that its widths should not vary from point to point.
+    ///
     /// # Errors
     /// If the index lies outside 0.1 … 10.
     pub fn new(facets: Facets, eta: f64) -> Result<Self, ModelError> {
         let single = Self::single_scattering(facets, eta)?;
-        let missing = [eta, 1.0 / eta].map(|eta| {
-            MissingLight::new(facets.is_isotropic(), |wo| {
-                let [reflected, transmitted] = single.first(wo, eta, PANELS);
-                1.0 - reflected - transmitted
-            })
+        let shares = interface_shares(facets, eta);
+        let averages = [0, 1].map(|side| shares.average(side));
+        let least = averages[0].min(averages[1]);
+        let through = [eta, 1.0 / eta].map(|eta| 1.0 - dielectric_average(eta));
+        let transmitted = [0, 1].map(|side| through[side] * least / averages[side]);
+        let later = Some(LaterLight {
+            shares,
+            transmitted,
         });
-        let least = missing[0].average().min(missing[1].average());
-        let mut indices = [eta, 1.0 / eta].into_iter();
-        let later = missing.map(|missing| {
-            let through = indices
-                .next()
-                .map_or(0.0, |eta| 1.0 - dielectric_average(eta));
-            LaterLight {
-                transmitted: through * least / missing.average(),
-                missing,
-            }
-        });
-        Ok(Self {
-            later: Some(Arc::new(later)),
-            ..single
-        })
+        Ok(Self { later, ..single })
     }
 
     /// The first facet alone, which loses light: comparable to renderers without compensation.
@@ -130,10 +120,7 @@ impl RoughDielectric {
         let Some(view) = View::new(wo, wi, self.eta) else {
             return Spectrum::ZERO;
         };
-        let later = self
-            .later
-            .as_ref()
-            .map_or(0.0, |sides| view.later_value(sides));
+        let later = self.later.as_ref().map_or(0.0, |later| later.value(&view));
         Spectrum::splat((self.first_value(&view).unwrap_or(0.0) + later) as f32)
     }
 
@@ -143,7 +130,7 @@ impl RoughDielectric {
         let share = self.later_share(wo);
         let (again, u0) = choose(u[0], share);
         let local = match &self.later {
-            Some(sides) if again => view.sample_later(sides, [u0, u[1]]),
+            Some(later) if again => later.sample(view.side, [u0, u[1]]),
             _ => self.sample_first(&view, [u0, u[1]])?,
         };
         let wi = if view.side == 0 {
@@ -160,19 +147,16 @@ impl RoughDielectric {
             return 0.0;
         };
         let share = self.later_share(wo);
-        let later = self
-            .later
-            .as_ref()
-            .map_or(0.0, |sides| view.later_pdf(sides));
+        let later = self.later.as_ref().map_or(0.0, |later| later.pdf(&view));
         (1.0 - share) * self.first_pdf(&view).unwrap_or(0.0) + share * later
     }
 
-    /// By quadrature over the facets: within a few 1e-3.
+    /// By quadrature over the facets, to about 1e-3.
     pub fn albedo(&self, wo: Direction) -> Spectrum {
         Spectrum::splat(self.shares(wo)[0] as f32)
     }
 
-    /// By quadrature over the facets: within a few 1e-3.
+    /// By quadrature over the facets, to about 1e-3.
     pub fn transmittance(&self, wo: Direction) -> Spectrum {
         Spectrum::splat(self.shares(wo)[1] as f32)
     }
@@ -181,39 +165,16 @@ impl RoughDielectric {
         let Some(view) = View::new(wo, wo, self.eta) else {
             return [0.0; 2];
         };
-        let [reflected, transmitted] = self.first(view.wo, view.eta, PANELS);
+        let [reflected, transmitted] = first_shares(self.facets, view.wo, view.eta, 1);
         let through = self
             .later
             .as_ref()
-            .map_or(0.0, |sides| sides[view.side].transmitted);
+            .map_or(0.0, |later| later.transmitted[view.side]);
         let share = self.later_share(wo);
         [
             reflected + share * (1.0 - through),
             transmitted + share * through,
         ]
-    }
-
-    /// Reflectance and transmittance of one facet from above, by [`mean_over_facets`].
-    pub(super) fn first(&self, wo: Direction, eta: f64, panels: u32) -> [f64; 2] {
-        let wo = self.facets.turned(wo);
-        mean_over_facets(wo, panels, |u| {
-            let Some(m) = self.facets.sample_visible(wo, u) else {
-                return [0.0; 2];
-            };
-            let reflectance = dielectric(wo.dot(m).clamp(0.0, 1.0), eta).mean();
-            let mirrored = m.mirror(wo);
-            let reflected = if mirrored.z() > 0.0 {
-                reflectance * self.facets.shadowing(wo, mirrored) / self.facets.masking(wo)
-            } else {
-                0.0
-            };
-            let transmitted = refract(wo, m, eta)
-                .filter(|refracted| refracted.z() < 0.0)
-                .map_or(0.0, |refracted| {
-                    (1.0 - reflectance) * self.facets.masking(refracted)
-                });
-            [reflected, transmitted]
-        })
     }
 
     fn first_value(&self, view: &View) -> Option<f64> {
@@ -260,7 +221,7 @@ impl RoughDielectric {
         let side = usize::from(wo.z() < 0.0);
         self.later
             .as_ref()
-            .map_or(0.0, |sides| sides[side].missing.at(upper(wo)))
+            .map_or(0.0, |later| later.shares.missing(side, upper(wo)))
     }
 }
 
@@ -303,42 +264,70 @@ impl View {
             _ => None,
         }
     }
+}
 
-    fn later_value(&self, sides: &[LaterLight; 2]) -> f64 {
-        let Some(from) = self.other_side() else {
+impl LaterLight {
+    fn value(&self, view: &View) -> f64 {
+        let Some(from) = view.other_side() else {
             return 0.0;
         };
-        let (near, far) = (&sides[self.side], &sides[from]);
-        let share = if from == self.side {
-            1.0 - near.transmitted
+        let share = if from == view.side {
+            1.0 - self.transmitted[from]
         } else {
-            far.transmitted
+            self.transmitted[from]
         };
-        let both = near.missing.at(self.wo) * far.missing.at(upper(self.wi));
-        share * both * FRAC_1_PI / near.missing.average()
+        let (near, far) = (view.wo, upper(view.wi));
+        let both = self.shares.missing(view.side, near) * self.shares.missing(from, far);
+        share * both * FRAC_1_PI / self.shares.average(view.side)
     }
 
-    fn later_pdf(&self, sides: &[LaterLight; 2]) -> f64 {
-        let Some(from) = self.other_side() else {
+    fn pdf(&self, view: &View) -> f64 {
+        let Some(from) = view.other_side() else {
             return 0.0;
         };
-        let through = sides[self.side].transmitted;
-        let share = if from == self.side {
+        let through = self.transmitted[view.side];
+        let share = if from == view.side {
             1.0 - through
         } else {
             through
         };
-        share * sides[from].missing.pdf(upper(self.wi))
+        share * self.shares.pdf(from, upper(view.wi))
     }
 
-    fn sample_later(&self, sides: &[LaterLight; 2], u: [f64; 2]) -> Direction {
-        let (through, u0) = choose(u[0], sides[self.side].transmitted);
+    fn sample(&self, side: usize, u: [f64; 2]) -> Direction {
+        let (through, u0) = choose(u[0], self.transmitted[side]);
         if through {
-            flipped(sides[1 - self.side].missing.sample([u0, u[1]]))
+            flipped(self.shares.sample(1 - side, [u0, u[1]]))
         } else {
-            sides[self.side].missing.sample([u0, u[1]])
+            self.shares.sample(side, [u0, u[1]])
         }
     }
+}
+
+/// What facets of this index miss on either side, and what they reflect.
+fn interface_shares(facets: Facets, eta: f64) -> Blend<2> {
+    type Surface = (Slopes, Shadowing, f64);
+    static SHELVES: Recent<Surface, Shelf<2>> = Recent::new();
+    static ANISOTROPIC: Recent<(Facets, f64), [Table; 2]> = Recent::new();
+    if !facets.is_isotropic() {
+        let tables = ANISOTROPIC.get((facets, eta), || interface_tables(facets, eta));
+        return Blend::exactly(tables);
+    }
+    let surface = (facets.slopes(), facets.visibility(), eta);
+    SHELVES
+        .get(surface, Shelf::new)
+        .blend(facets.widths()[0], |alpha| {
+            interface_tables(facets.with_width(alpha), eta)
+        })
+}
+
+fn interface_tables(facets: Facets, eta: f64) -> [Table; 2] {
+    [eta, 1.0 / eta].map(|eta| {
+        Table::new(facets.stretch(), |wo| {
+            let [reflected, transmitted] = first_shares(facets, wo, eta, 1);
+            [1.0 - reflected - transmitted, reflected]
+        })
+    })
 }
 
 /// Mirrored at the surface.

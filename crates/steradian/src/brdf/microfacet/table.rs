@@ -1,11 +1,13 @@
-//! The light that single scattering loses, by direction: what facets pass on to other facets.
+//! What one facet does with light, by direction, in tables that are made once.
 //!
 //! M(ω) = 1 − E(ω), with E the share of light along ω that leaves the surface after one facet. A lobe
 //! (1 − E(d_e))(1 − E(d_i))/(π M̄) gives that light back and is reciprocal, M̄ = (1/π) ∫ M cosθ dω.
 //!
-//! M is tabulated when a model is made: linear in √cosθ between 129 nodes, cubic (Catmull and Rom) in azimuth between 0
-//! and 90° where the surface is anisotropic. Source: C. Kulla and A. Conty, *Revisiting physically based shading at
-//! Imageworks*, SIGGRAPH 2017 course; after C. Kelemen and L. Szirmay-Kalos, Eurographics 2001.
+//! Beside M stands a second share N(ω) of the light, of which each model says what it is. Both are linear in √cosθ between 129 nodes, and cubic
+//! (Catmull and Rom) in a stretched azimuth φ′ between 0 and 90° where the surface is anisotropic, tanφ′ = √(α_y/α_x) tanφ,
+//! which resolves the narrow range of azimuths along which the surface is smoothest. Source: C. Kulla and A. Conty,
+//! *Revisiting physically based shading at Imageworks*, SIGGRAPH 2017 course; after C. Kelemen and
+//! L. Szirmay-Kalos, Eurographics 2001.
 //!
 //! Directions are drawn from the azimuthal mean of M cosθ: a band of cosθ by its share, evenly in cos²θ inside it.
 
@@ -15,36 +17,42 @@ use crate::geometry::{Direction, gauss};
 
 /// Bands of cosθ.
 const BANDS: usize = 128;
-/// Intervals of azimuth between 0 and 90° of an anisotropic surface.
-const SECTORS: usize = 12;
+/// Intervals of stretched azimuth between 0 and 90° of an anisotropic surface.
+const SECTORS: usize = 16;
 /// M̄ of a surface that loses nothing that matters, so that it can be divided by.
 const LEAST: f64 = 1e-12;
 
-/// M of every direction of one side.
+/// (M, N) at the nodes of √cosθ.
+type Row = [[f64; 2]; BANDS + 1];
+
+/// M and N of every direction of one side.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct MissingLight {
-    /// At the nodes of √cosθ, for each azimuth.
-    rows: Vec<[f64; BANDS + 1]>,
+pub(super) struct Table {
+    /// For each azimuth.
+    rows: Vec<Row>,
+    /// √(α_y/α_x).
+    stretch: f64,
     /// Share of ∫ M cosθ dω below the upper edge of each band.
     cumulative: [f64; BANDS],
     average: f64,
 }
 
-impl MissingLight {
-    /// From M of directions above the surface.
-    pub(super) fn new(isotropic: bool, missing: impl Fn(Direction) -> f64) -> Self {
-        let sectors = if isotropic { 0 } else { SECTORS };
+impl Table {
+    /// From (M, N) of directions above the surface, and √(α_y/α_x) of an anisotropic one.
+    pub(super) fn new(stretch: Option<f64>, shares: impl Fn(Direction) -> [f64; 2]) -> Self {
+        let sectors = if stretch.is_some() { SECTORS } else { 0 };
+        let stretch = stretch.unwrap_or(1.0);
         let row = |sector: usize| {
-            let phi = FRAC_PI_2 * sector as f64 / SECTORS as f64;
+            let phi = azimuth(sector, stretch);
             std::array::from_fn(|node| {
                 // At the horizon the limit.
                 let cos = edge(node).max(1e-5);
                 let sin = (1.0 - cos * cos).sqrt();
-                missing(Direction::from_polar(sin, cos, phi)).clamp(0.0, 1.0)
+                shares(Direction::from_polar(sin, cos, phi)).map(|share| share.clamp(0.0, 1.0))
             })
         };
-        let rows: Vec<_> = (0..=sectors).map(row).collect();
-        let shares = shares_of_bands(&rows);
+        let rows: Vec<Row> = (0..=sectors).map(row).collect();
+        let shares = shares_of_bands(&rows, stretch);
         let average: f64 = shares.iter().sum();
         let mut sum = 0.0;
         let cumulative = shares.map(|share| {
@@ -53,6 +61,7 @@ impl MissingLight {
         });
         Self {
             rows,
+            stretch,
             cumulative,
             average: average.max(LEAST),
         }
@@ -63,27 +72,32 @@ impl MissingLight {
         self.average
     }
 
-    /// M of a direction above the surface.
-    pub(super) fn at(&self, direction: Direction) -> f64 {
+    /// (M, N) of a direction above the surface.
+    pub(super) fn at(&self, direction: Direction) -> [f64; 2] {
         let place = direction.z().clamp(0.0, 1.0).sqrt() * BANDS as f64;
         let node = (place as usize).min(BANDS - 1);
         let part = place - node as f64;
-        let row = |row: &[f64; BANDS + 1]| row[node] + part * (row[node + 1] - row[node]);
+        let in_row = |row: &Row, share: usize| {
+            row[node][share] + part * (row[node + 1][share] - row[node][share])
+        };
         if let [only] = self.rows.as_slice() {
-            return row(only);
+            return [in_row(only, 0), in_row(only, 1)];
         }
-        let phi = libm::atan2(direction.y().abs(), direction.x().abs());
+        let phi = libm::atan2(self.stretch * direction.y().abs(), direction.x().abs());
         let place = phi / FRAC_PI_2 * SECTORS as f64;
         let sector = (place as usize).min(SECTORS - 1);
-        // M is even about 0 and 90°.
-        let mirrored = |k: usize| row(&self.rows[SECTORS - SECTORS.abs_diff(k)]);
-        let points = [
-            row(&self.rows[sector.abs_diff(1)]),
-            mirrored(sector),
-            mirrored(sector + 1),
-            mirrored(sector + 2),
+        // Shares are even about 0 and 90°.
+        let row = |k: usize| &self.rows[SECTORS - SECTORS.abs_diff(k)];
+        let rows = [
+            &self.rows[sector.abs_diff(1)],
+            row(sector),
+            row(sector + 1),
+            row(sector + 2),
         ];
-        catmull_rom(points, place - sector as f64).clamp(0.0, 1.0)
+        [0, 1].map(|share| {
+            let points = rows.map(|row| in_row(row, share));
+            catmull_rom(points, place - sector as f64).clamp(0.0, 1.0)
+        })
     }
 
     /// A direction above the surface.
@@ -132,17 +146,29 @@ fn squares(band: usize) -> [f64; 2] {
     [band, band + 1].map(|node| edge(node) * edge(node))
 }
 
+/// φ at a sector's edge: tanφ = tanφ′/s.
+fn azimuth(sector: usize, stretch: f64) -> f64 {
+    let (sin, cos) = libm::sincos(FRAC_PI_2 * sector as f64 / SECTORS as f64);
+    libm::atan2(sin, stretch * cos)
+}
+
+/// dφ/dφ′ there.
+fn widening(sector: usize, stretch: f64) -> f64 {
+    let (sin, cos) = libm::sincos(FRAC_PI_2 * sector as f64 / SECTORS as f64);
+    stretch / (stretch * stretch * cos * cos + sin * sin)
+}
+
 /// (1/π) ∫ M cosθ dω over each band: ∫ 2M µ dµ = ∫ 4 M t³ dt, of degree 4, and the trapezoidal rule in azimuth.
-fn shares_of_bands(rows: &[[f64; BANDS + 1]]) -> [f64; BANDS] {
+fn shares_of_bands(rows: &[Row], stretch: f64) -> [f64; BANDS] {
     let last = rows.len() - 1;
     let weight = |sector: usize| match sector {
         _ if last == 0 => 1.0,
-        sector if sector == 0 || sector == last => 0.5 / last as f64,
-        _ => 1.0 / last as f64,
+        sector if sector == 0 || sector == last => 0.5 * widening(sector, stretch) / last as f64,
+        _ => widening(sector, stretch) / last as f64,
     };
     let mean = |node: usize| -> f64 {
         (0..rows.len())
-            .map(|sector| weight(sector) * rows[sector][node])
+            .map(|sector| weight(sector) * rows[sector][node][0])
             .sum()
     };
     std::array::from_fn(|band| {
