@@ -26,6 +26,14 @@ pub enum ModelError {
         /// The largest sum of a lane.
         sum: f64,
     },
+    /// Interfaces to media of different indices in one surface.
+    #[error("parts that let light through must do so at one index, got {first} and {other}")]
+    DifferentIndices {
+        /// Of the first part that is an interface.
+        first: f64,
+        /// Of another.
+        other: f64,
+    },
 }
 
 /// `found`, if it lies in this range.

@@ -35,12 +35,15 @@ mod lambertian;
 pub mod measured;
 mod microfacet;
 mod mirror;
+mod mixture;
 mod oren_nayar;
 mod pane;
 mod phong;
+mod plastic;
 mod sampling;
 mod smooth_conductor;
 mod smooth_dielectric;
+mod ward;
 
 pub use complex_index::ComplexIndex;
 pub use diffuse_transmission::DiffuseTransmission;
@@ -48,13 +51,16 @@ pub use eon::EnergyPreservingOrenNayar;
 pub use error::ModelError;
 pub use lambertian::Lambertian;
 pub use measured::Measured;
-pub use microfacet::{Facets, RoughConductor, RoughDielectric, Shadowing, Slopes};
+pub use microfacet::{Facets, RoughConductor, RoughDielectric, RoughPlastic, Shadowing, Slopes};
 pub use mirror::Mirror;
+pub use mixture::Mixture;
 pub use oren_nayar::OrenNayar;
 pub use pane::Pane;
 pub use phong::Phong;
+pub use plastic::Plastic;
 pub use smooth_conductor::SmoothConductor;
 pub use smooth_dielectric::SmoothDielectric;
+pub use ward::Ward;
 
 use crate::geometry::Direction;
 use crate::quantity::Spectrum;
@@ -134,25 +140,44 @@ pub enum Brdf {
     Pane(Pane),
     /// A table of values.
     Measured(Measured),
+    /// A smooth coat over a diffuse base.
+    Plastic(Plastic),
+    /// A rough coat over a diffuse base.
+    RoughPlastic(RoughPlastic),
+    /// Ward's gloss, and Radiance's materials.
+    Ward(Ward),
+    /// Several models side by side.
+    Mixture(Mixture),
+}
+
+/// What a model with values in 1/sr says, or what is so of the others.
+macro_rules! finite {
+    ($brdf:expr, $model:ident => $says:expr, $others:expr) => {
+        match $brdf {
+            Brdf::Lambertian($model) => $says,
+            Brdf::OrenNayar($model) => $says,
+            Brdf::EnergyPreservingOrenNayar($model) => $says,
+            Brdf::DiffuseTransmission($model) => $says,
+            Brdf::Measured($model) => $says,
+            Brdf::Phong($model) => $says,
+            Brdf::RoughConductor($model) => $says,
+            Brdf::RoughDielectric($model) => $says,
+            Brdf::Plastic($model) => $says,
+            Brdf::RoughPlastic($model) => $says,
+            Brdf::Ward($model) => $says,
+            Brdf::Mixture($model) => $says,
+            Brdf::Mirror(_)
+            | Brdf::SmoothConductor(_)
+            | Brdf::SmoothDielectric(_)
+            | Brdf::Pane(_) => $others,
+        }
+    };
 }
 
 impl Brdf {
     /// ρ(d_e, d_i) in 1/sr, without cosine; zero for a smooth surface.
     pub fn evaluate(&self, wo: Direction, wi: Direction) -> Spectrum {
-        match self {
-            Self::Lambertian(model) => model.evaluate(wo, wi),
-            Self::OrenNayar(model) => model.evaluate(wo, wi),
-            Self::EnergyPreservingOrenNayar(model) => model.evaluate(wo, wi),
-            Self::DiffuseTransmission(model) => model.evaluate(wo, wi),
-            Self::Measured(model) => model.evaluate(wo, wi),
-            Self::Phong(model) => model.evaluate(wo, wi),
-            Self::RoughConductor(model) => model.evaluate(wo, wi),
-            Self::RoughDielectric(model) => model.evaluate(wo, wi),
-            Self::Mirror(_)
-            | Self::SmoothConductor(_)
-            | Self::SmoothDielectric(_)
-            | Self::Pane(_) => Spectrum::ZERO,
-        }
+        finite!(self, model => model.evaluate(wo, wi), Spectrum::ZERO)
     }
 
     /// A direction of incidence from two uniform numbers; `None` where the model is black or the direction drawn lies
@@ -161,54 +186,27 @@ impl Brdf {
     /// Models that choose between parts use what is left of the first number again.
     pub fn sample(&self, wo: Direction, u: [f64; 2]) -> Option<Scatter> {
         match self {
-            Self::Lambertian(model) => model.sample(wo, u),
-            Self::OrenNayar(model) => model.sample(wo, u),
-            Self::EnergyPreservingOrenNayar(model) => model.sample(wo, u),
-            Self::DiffuseTransmission(model) => model.sample(wo, u),
-            Self::Measured(model) => model.sample(wo, u),
-            Self::Phong(model) => model.sample(wo, u),
-            Self::RoughConductor(model) => model.sample(wo, u),
-            Self::RoughDielectric(model) => model.sample(wo, u),
             Self::Mirror(model) => model.sample(wo),
             Self::SmoothConductor(model) => model.sample(wo),
             Self::SmoothDielectric(model) => model.sample(wo, u),
             Self::Pane(model) => model.sample(wo, u),
+            _ => finite!(self, model => model.sample(wo, u), None),
         }
     }
 
     /// Density of [`sample`](Self::sample) in 1/sr; zero for a smooth surface.
     pub fn pdf(&self, wo: Direction, wi: Direction) -> f64 {
-        match self {
-            Self::Lambertian(model) => model.pdf(wo, wi),
-            Self::OrenNayar(model) => model.pdf(wo, wi),
-            Self::EnergyPreservingOrenNayar(model) => model.pdf(wo, wi),
-            Self::DiffuseTransmission(model) => model.pdf(wo, wi),
-            Self::Measured(model) => model.pdf(wo, wi),
-            Self::Phong(model) => model.pdf(wo, wi),
-            Self::RoughConductor(model) => model.pdf(wo, wi),
-            Self::RoughDielectric(model) => model.pdf(wo, wi),
-            Self::Mirror(_)
-            | Self::SmoothConductor(_)
-            | Self::SmoothDielectric(_)
-            | Self::Pane(_) => 0.0,
-        }
+        finite!(self, model => model.pdf(wo, wi), 0.0)
     }
 
     /// Directional-hemispherical reflectance.
     pub fn albedo(&self, wo: Direction) -> Spectrum {
         match self {
-            Self::Lambertian(model) => model.albedo(wo),
-            Self::OrenNayar(model) => model.albedo(wo),
-            Self::EnergyPreservingOrenNayar(model) => model.albedo(wo),
-            Self::DiffuseTransmission(model) => model.albedo(wo),
-            Self::Measured(model) => model.albedo(wo),
-            Self::Phong(model) => model.albedo(wo),
-            Self::RoughConductor(model) => model.albedo(wo),
-            Self::RoughDielectric(model) => model.albedo(wo),
             Self::Mirror(model) => model.albedo(wo),
             Self::SmoothConductor(model) => model.albedo(wo),
             Self::SmoothDielectric(model) => model.albedo(wo),
             Self::Pane(model) => model.albedo(wo),
+            _ => finite!(self, model => model.albedo(wo), Spectrum::ZERO),
         }
     }
 
@@ -220,17 +218,25 @@ impl Brdf {
             Self::RoughDielectric(model) => model.transmittance(wo),
             Self::SmoothDielectric(model) => model.transmittance(wo),
             Self::Pane(model) => model.transmittance(wo),
+            Self::Ward(model) => model.transmittance(wo),
+            Self::Mixture(model) => model.transmittance(wo),
             _ => Spectrum::ZERO,
+        }
+    }
+
+    /// The index inside over the index outside of an interface between two media; `None` of other surfaces.
+    pub fn interior_index(&self) -> Option<f64> {
+        match self {
+            Self::SmoothDielectric(model) => Some(model.eta()),
+            Self::RoughDielectric(model) => Some(model.eta()),
+            Self::Mixture(model) => model.interior_index(),
+            _ => None,
         }
     }
 
     /// (n_e/n_i)²: radiance towards `wo` over radiance from `wi` of the same power, by the indices of their sides.
     pub fn radiance_scale(&self, wo: Direction, wi: Direction) -> f64 {
-        let eta = match self {
-            Self::SmoothDielectric(model) => model.eta(),
-            Self::RoughDielectric(model) => model.eta(),
-            _ => 1.0,
-        };
+        let eta = self.interior_index().unwrap_or(1.0);
         match (wo.z() < 0.0, wi.z() < 0.0) {
             (true, false) => eta * eta,
             (false, true) => 1.0 / (eta * eta),

@@ -2,18 +2,20 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::Direction;
+use crate::geometry::{Direction, Vector};
 
 /// Whether both directions lie above the surface.
 pub(super) fn above(wo: Direction, wi: Direction) -> bool {
     wo.z() > 0.0 && wi.z() > 0.0
 }
 
+/// The largest number below 1.
+pub(super) const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
+
 /// True with this probability, and a uniform number that is independent of the choice.
 ///
 /// The number is what is left of `u`, stretched to 0 … 1: of 53 bits, log₂ of the outcome's probability are used up.
 pub(super) fn choose(u: f64, probability: f64) -> (bool, f64) {
-    const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
     if u < probability {
         (true, (u / probability).min(BELOW_ONE))
     } else {
@@ -22,6 +24,25 @@ pub(super) fn choose(u: f64, probability: f64) -> (bool, f64) {
             ((u - probability) / (1.0 - probability)).min(BELOW_ONE),
         )
     }
+}
+
+/// The part that `u` falls into, by probabilities that add up to 1, and a uniform number that is independent of the choice.
+pub(super) fn choose_part(probabilities: &[f64], u: f64) -> Option<(usize, f64)> {
+    let mut place = u;
+    let part = probabilities.iter().position(|&probability| {
+        let inside = place < probability;
+        if !inside {
+            place -= probability;
+        }
+        inside
+    })?;
+    Some((part, (place / probabilities[part]).min(BELOW_ONE)))
+}
+
+/// Mirrored at the surface.
+pub(super) fn flipped(direction: Direction) -> Direction {
+    let [x, y, z] = direction.to_array();
+    Direction::from_unit(Vector::new(x, y, -z))
 }
 
 /// Of density cosθ/π.

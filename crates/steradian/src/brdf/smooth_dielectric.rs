@@ -8,7 +8,9 @@
 //! | R | Fresnel reflectance of unpolarised light | 1 |
 //! | η | index inside over index outside, the same in all lanes | 1 |
 //!
-//! Both directions are drawn with the probability of their share of the power, so that the weight is 1 when reflected
+//! Both shares may be tinted, for looks: R and 1 − R are multiplied by numbers up to 1.
+//!
+//! Both directions are drawn with the probability of their share of the power, so that without tints the weight is 1 when reflected
 //! and (n_e/n_i)² when refracted. Absorption inside belongs to the medium, dispersion to whoever makes one interface a
 //! wavelength. Source: as [`fresnel`](super::fresnel); E. Veach (1997), §5.2 for (n_e/n_i)².
 //!
@@ -21,7 +23,7 @@
 //! # Ok::<(), steradian::brdf::ModelError>(())
 //! ```
 
-use super::error::in_range;
+use super::error::{in_range, share};
 use super::fresnel::{dielectric, refract};
 use super::{ModelError, Scatter};
 use crate::geometry::Direction;
@@ -31,6 +33,7 @@ use crate::quantity::Spectrum;
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct SmoothDielectric {
     eta: f64,
+    tints: [Spectrum; 2],
 }
 
 impl SmoothDielectric {
@@ -39,7 +42,26 @@ impl SmoothDielectric {
     /// # Errors
     /// If it lies outside 0.1 … 10.
     pub fn new(eta: f64) -> Result<Self, ModelError> {
-        in_range("eta", eta, [0.1, 10.0]).map(|eta| Self { eta })
+        in_range("eta", eta, [0.1, 10.0]).map(|eta| Self {
+            eta,
+            tints: [Spectrum::ONE; 2],
+        })
+    }
+
+    /// The same interface, of which reflected and transmitted light are multiplied by these.
+    ///
+    /// # Errors
+    /// If a lane lies outside 0 … 1.
+    pub fn with_tints(
+        self,
+        reflection: Spectrum,
+        transmission: Spectrum,
+    ) -> Result<Self, ModelError> {
+        let tints = [
+            share("tint of reflection", reflection)?,
+            share("tint of transmission", transmission)?,
+        ];
+        Ok(Self { tints, ..self })
     }
 
     /// The index inside over the index outside.
@@ -50,25 +72,33 @@ impl SmoothDielectric {
     /// The reflected or the refracted direction.
     pub fn sample(&self, wo: Direction, u: [f64; 2]) -> Option<Scatter> {
         let (normal, eta) = facing(wo, self.eta)?;
-        let specular = |wi, scale| Scatter::Specular {
-            wi,
-            reflectance: Spectrum::splat(scale),
-        };
-        if u[0] < self.reflectance(wo) {
-            return Some(specular(Direction::Z.mirror(wo), 1.0));
+        let share = self.reflectance(wo);
+        let [reflected, transmitted] = self.tints.map(|tint| f64::from(tint.mean()));
+        let (reflected, transmitted) = (share * reflected, (1.0 - share) * transmitted);
+        if reflected + transmitted <= 0.0 {
+            return None;
         }
-        let wi = refract(wo, normal, eta)?;
-        Some(specular(wi, (1.0 / (eta * eta)) as f32))
+        let probability = reflected / (reflected + transmitted);
+        let (wi, reflectance) = if u[0] < probability {
+            (
+                Direction::Z.mirror(wo),
+                self.tints[0] * (share / probability),
+            )
+        } else {
+            let scale = (1.0 - share) / (1.0 - probability) / (eta * eta);
+            (refract(wo, normal, eta)?, self.tints[1] * scale)
+        };
+        Some(Scatter::Specular { wi, reflectance })
     }
 
-    /// R(θ).
+    /// R(θ), tinted.
     pub fn albedo(&self, wo: Direction) -> Spectrum {
-        Spectrum::splat(self.reflectance(wo) as f32)
+        self.tints[0] * self.reflectance(wo)
     }
 
-    /// 1 − R(θ).
+    /// 1 − R(θ), tinted.
     pub fn transmittance(&self, wo: Direction) -> Spectrum {
-        Spectrum::splat((1.0 - self.reflectance(wo)) as f32)
+        self.tints[1] * (1.0 - self.reflectance(wo))
     }
 
     fn reflectance(&self, wo: Direction) -> f64 {

@@ -65,6 +65,7 @@ fn fault(stated: &Stated, error: ModelError) -> Fault {
             (parameter, error.to_string())
         }
         ModelError::GainsEnergy { parts, sum } => (stated.key(parts, sum), error.to_string()),
+        ModelError::DifferentIndices { .. } => ("of", error.to_string()),
     }
 }
 

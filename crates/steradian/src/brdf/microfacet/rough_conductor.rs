@@ -34,11 +34,12 @@
 use std::f64::consts::FRAC_1_PI;
 
 use super::facets::{Facets, Shadowing, Slopes};
+use super::half_way;
 use super::quadrature::{Fan, Ray};
 use super::shelf::{Blend, Recent, Shelf};
 use super::table::Table;
 use crate::brdf::fresnel::schlick_rise;
-use crate::brdf::sampling::{above, choose};
+use crate::brdf::sampling::choose;
 use crate::brdf::{ComplexIndex, Scatter, to_spectrum};
 use crate::geometry::Direction;
 use crate::quantity::Spectrum;
@@ -179,14 +180,6 @@ impl LaterLight {
         let lobe = both * FRAC_1_PI / self.shares.average(0);
         self.reflectance.map(|f| f * lobe)
     }
-}
-
-/// The normal that mirrors one direction into the other, both above the surface.
-fn half_way(wo: Direction, wi: Direction) -> Option<Direction> {
-    if !above(wo, wi) {
-        return None;
-    }
-    Direction::new(wo.to_vector() + wi.to_vector()).ok()
 }
 
 /// ∫ F D G₂/(4 cosθ_e) dω_i, with F by the cosine of d_e to the facet.

@@ -41,11 +41,11 @@ use super::facets::{Facets, Shadowing, Slopes};
 use super::interface_light::first_shares;
 use super::shelf::{Blend, Recent, Shelf};
 use super::table::Table;
-use crate::brdf::error::in_range;
+use crate::brdf::error::{in_range, share};
 use crate::brdf::fresnel::{dielectric, dielectric_average, refract};
-use crate::brdf::sampling::choose;
+use crate::brdf::sampling::{choose, flipped};
 use crate::brdf::{ModelError, Scatter};
-use crate::geometry::{Direction, Vector};
+use crate::geometry::Direction;
 use crate::quantity::Spectrum;
 use crate::sampling::hash::combine;
 
@@ -56,6 +56,8 @@ pub struct RoughDielectric {
     /// The index inside over the index outside.
     eta: f64,
     later: Option<LaterLight>,
+    /// Of reflected and of transmitted light.
+    tints: [Spectrum; 2],
 }
 
 /// What one facet does not send away, outside and inside.
@@ -107,7 +109,24 @@ impl RoughDielectric {
             facets,
             eta: in_range("eta", eta, [0.1, 10.0])?,
             later: None,
+            tints: [Spectrum::ONE; 2],
         })
+    }
+
+    /// The same interface, of which reflected and transmitted light are multiplied by these, for looks.
+    ///
+    /// # Errors
+    /// If a lane lies outside 0 … 1.
+    pub fn with_tints(
+        self,
+        reflection: Spectrum,
+        transmission: Spectrum,
+    ) -> Result<Self, ModelError> {
+        let tints = [
+            share("tint of reflection", reflection)?,
+            share("tint of transmission", transmission)?,
+        ];
+        Ok(Self { tints, ..self })
     }
 
     /// The index inside over the index outside.
@@ -121,7 +140,8 @@ impl RoughDielectric {
             return Spectrum::ZERO;
         };
         let later = self.later.as_ref().map_or(0.0, |later| later.value(&view));
-        Spectrum::splat((self.first_value(&view).unwrap_or(0.0) + later) as f32)
+        let tint = self.tints[usize::from(view.wi.z() < 0.0)];
+        tint * (self.first_value(&view).unwrap_or(0.0) + later)
     }
 
     /// A direction on either side; `None` where the direction drawn lies on the wrong one.
@@ -153,12 +173,19 @@ impl RoughDielectric {
 
     /// By quadrature over the facets, to about 1e-3.
     pub fn albedo(&self, wo: Direction) -> Spectrum {
-        Spectrum::splat(self.shares(wo)[0] as f32)
+        self.tints[0] * self.shares(wo)[0]
     }
 
     /// By quadrature over the facets, to about 1e-3.
     pub fn transmittance(&self, wo: Direction) -> Spectrum {
-        Spectrum::splat(self.shares(wo)[1] as f32)
+        self.tints[1] * self.shares(wo)[1]
+    }
+
+    /// t of the outside, or 0 for single scattering.
+    pub(super) fn later_transmitted(&self) -> f64 {
+        self.later
+            .as_ref()
+            .map_or(0.0, |later| later.transmitted[0])
     }
 
     fn shares(&self, wo: Direction) -> [f64; 2] {
@@ -305,7 +332,7 @@ impl LaterLight {
 }
 
 /// What facets of this index miss on either side, and what they reflect.
-fn interface_shares(facets: Facets, eta: f64) -> Blend<2> {
+pub(super) fn interface_shares(facets: Facets, eta: f64) -> Blend<2> {
     type Surface = (Slopes, Shadowing, f64);
     static SHELVES: Recent<Surface, Shelf<2>> = Recent::new();
     static ANISOTROPIC: Recent<(Facets, f64), [Table; 2]> = Recent::new();
@@ -328,12 +355,6 @@ fn interface_tables(facets: Facets, eta: f64) -> [Table; 2] {
             [1.0 - reflected - transmitted, reflected]
         })
     })
-}
-
-/// Mirrored at the surface.
-fn flipped(direction: Direction) -> Direction {
-    let [x, y, z] = direction.to_array();
-    Direction::from_unit(Vector::new(x, y, -z))
 }
 
 fn upper(direction: Direction) -> Direction {

@@ -111,8 +111,13 @@ impl<const SIDES: usize> Blend<SIDES> {
 
     /// M̄.
     pub(super) fn average(&self, side: usize) -> f64 {
-        let [first, second] = [0, 1].map(|k| self.tables[k][side].average());
-        first + self.part * (second - first)
+        self.averages(side)[0]
+    }
+
+    /// M̄ and N̄.
+    pub(super) fn averages(&self, side: usize) -> [f64; 2] {
+        let [first, second] = [0, 1].map(|k| self.tables[k][side].averages());
+        [0, 1].map(|share| first[share] + self.part * (second[share] - first[share]))
     }
 
     /// A direction above the surface, of density M cosθ/(π M̄) in the mean over azimuth.
@@ -129,6 +134,6 @@ impl<const SIDES: usize> Blend<SIDES> {
     }
 
     fn share_of_second(&self, side: usize) -> f64 {
-        self.part * self.tables[1][side].average() / self.average(side)
+        self.part * self.tables[1][side].averages()[0] / self.average(side)
     }
 }

@@ -34,7 +34,8 @@ pub(super) struct Table {
     stretch: f64,
     /// Share of ∫ M cosθ dω below the upper edge of each band.
     cumulative: [f64; BANDS],
-    average: f64,
+    /// M̄ and N̄.
+    averages: [f64; 2],
 }
 
 impl Table {
@@ -52,24 +53,24 @@ impl Table {
             })
         };
         let rows: Vec<Row> = (0..=sectors).map(row).collect();
-        let shares = shares_of_bands(&rows, stretch);
-        let average: f64 = shares.iter().sum();
+        let [shares, others] = [0, 1].map(|share| shares_of_bands(&rows, share, stretch));
+        let average = shares.iter().sum::<f64>().max(LEAST);
         let mut sum = 0.0;
         let cumulative = shares.map(|share| {
             sum += share;
-            sum / average.max(LEAST)
+            sum / average
         });
         Self {
             rows,
             stretch,
             cumulative,
-            average: average.max(LEAST),
+            averages: [average, others.iter().sum()],
         }
     }
 
-    /// M̄.
-    pub(super) fn average(&self) -> f64 {
-        self.average
+    /// M̄ and N̄.
+    pub(super) fn averages(&self) -> [f64; 2] {
+        self.averages
     }
 
     /// (M, N) of a direction above the surface.
@@ -158,8 +159,8 @@ fn widening(sector: usize, stretch: f64) -> f64 {
     stretch / (stretch * stretch * cos * cos + sin * sin)
 }
 
-/// (1/π) ∫ M cosθ dω over each band: ∫ 2M µ dµ = ∫ 4 M t³ dt, of degree 4, and the trapezoidal rule in azimuth.
-fn shares_of_bands(rows: &[Row], stretch: f64) -> [f64; BANDS] {
+/// (1/π) ∫ M cosθ dω over each band, or that of N: ∫ 2M µ dµ = ∫ 4 M t³ dt, of degree 4, and the trapezoidal rule in azimuth.
+fn shares_of_bands(rows: &[Row], share: usize, stretch: f64) -> [f64; BANDS] {
     let last = rows.len() - 1;
     let weight = |sector: usize| match sector {
         _ if last == 0 => 1.0,
@@ -168,7 +169,7 @@ fn shares_of_bands(rows: &[Row], stretch: f64) -> [f64; BANDS] {
     };
     let mean = |node: usize| -> f64 {
         (0..rows.len())
-            .map(|sector| weight(sector) * rows[sector][node][0])
+            .map(|sector| weight(sector) * rows[sector][node][share])
             .sum()
     };
     std::array::from_fn(|band| {

@@ -52,8 +52,60 @@ static FINITE: LazyLock<Vec<Subject>> = LazyLock::new(|| {
         models.push(subject(Brdf::Phong(model), 2e-4, 2.0));
     }
     models.extend(rough_models());
+    models.extend(layered_models());
     models
 });
+
+/// Models with a coat, of Radiance, and mixtures.
+fn layered_models() -> Vec<Subject> {
+    let facets = Facets::isotropic(Slopes::Ggx, 0.3).unwrap();
+    let sharp = Facets::isotropic(Slopes::Beckmann, 0.1).unwrap();
+    let plastics = [
+        RoughPlastic::new(facets, 1.5, REFLECTANCE),
+        RoughPlastic::new(sharp, 1.33, Spectrum::ONE),
+        RoughPlastic::single_scattering(facets, 2.0, REFLECTANCE),
+    ];
+    let plastics = plastics.map(|model| Brdf::RoughPlastic(model.unwrap()));
+    let trans = Ward::radiance_trans(REFLECTANCE, [0.1, 0.2], [0.5, 0.4]);
+    let wards = [
+        Ward::new(REFLECTANCE, Spectrum::splat(0.5), [0.1, 0.3]),
+        Ward::radiance_metal(REFLECTANCE, 0.8, 0.2),
+        trans,
+    ];
+    let wards = wards.map(|model| Brdf::Ward(model.unwrap()));
+    let glass = RoughDielectric::new(Facets::isotropic(Slopes::Ggx, 0.5).unwrap(), 1.5).unwrap();
+    let tinted = glass.with_tints(REFLECTANCE, Spectrum::splat(0.5)).unwrap();
+    let paint = Brdf::Lambertian(lambertian([0.5; 4]));
+    let mixture = vec![
+        (0.25, wards[0].clone()),
+        (0.5, paint),
+        (0.25, Brdf::RoughDielectric(tinted)),
+    ];
+    let mixture = Brdf::Mixture(Mixture::new(mixture).unwrap());
+    let plastics = plastics.map(|model| subject(model, 2e-3, 8.0));
+    let wards = wards.map(|model| subject(model, 2e-4, 8.0));
+    plastics
+        .into_iter()
+        .chain(wards)
+        .chain([subject(mixture, 2e-3, 10.0)])
+        .collect()
+}
+
+/// Models that couple single directions and have values besides.
+fn half_smooth_models() -> Vec<Brdf> {
+    let white = Plastic::new(1.5, Spectrum::ONE).unwrap();
+    let coloured = Plastic::new(1.9, REFLECTANCE).unwrap();
+    let polished = Ward::radiance_trans(REFLECTANCE, [0.1, 0.0], [0.5, 0.4]).unwrap();
+    let chrome = Brdf::SmoothConductor(SmoothConductor::new(gold()));
+    let paint = Brdf::Lambertian(lambertian([0.5; 4]));
+    let flakes = Mixture::new(vec![(0.25, chrome), (0.7, paint)]).unwrap();
+    vec![
+        Brdf::Plastic(white),
+        Brdf::Plastic(coloured),
+        Brdf::Ward(polished),
+        Brdf::Mixture(flakes),
+    ]
+}
 
 fn rough_models() -> Vec<Subject> {
     let metals = [
@@ -202,6 +254,7 @@ proptest! {
 fn the_mean_weight_of_samples_is_the_albedo() {
     let smooth = smooth_models()
         .into_iter()
+        .chain(half_smooth_models())
         .map(|model| subject(model, 1e-6, 4.0))
         .collect::<Vec<_>>();
     for Subject {
@@ -302,5 +355,8 @@ fn parameters_out_of_range_are_refused_by_name() {
 /// All models of these tests.
 pub(super) fn every_model() -> Vec<Brdf> {
     let finite = FINITE.iter().map(|subject| subject.model.clone());
-    finite.chain(smooth_models()).collect()
+    finite
+        .chain(smooth_models())
+        .chain(half_smooth_models())
+        .collect()
 }
