@@ -23,6 +23,48 @@ pub enum BsdfError {
         /// What is wrong there.
         fault: XmlFault,
     },
+    /// In a binary file.
+    #[error("byte {byte}: {fault}")]
+    Binary {
+        /// The byte, from 0.
+        byte: usize,
+        /// What is wrong there.
+        fault: BinaryFault,
+    },
+}
+
+/// What is wrong at a place of a binary file.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum BinaryFault {
+    /// A file that is too short or too long.
+    #[error("the file needs {needed} bytes, but has {found}")]
+    Length {
+        /// How many it should have.
+        needed: usize,
+        /// How many it has.
+        found: usize,
+    },
+    /// A number of cells that the format does not have.
+    #[error("expected {expected} cells, found {found}")]
+    Dimension {
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A number that is infinite or NaN, in single precision.
+    #[error("{0} is no finite number")]
+    NotFinite(String),
+    /// Values that make no table.
+    #[error("{0}")]
+    Table(MeasuredError),
+}
+
+impl BinaryFault {
+    pub(super) fn at(self, byte: usize) -> BsdfError {
+        BsdfError::Binary { byte, fault: self }
+    }
 }
 
 /// What is wrong at a place of an XML file.

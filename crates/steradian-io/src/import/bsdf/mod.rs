@@ -3,10 +3,12 @@
 //! | extension | format | becomes |
 //! |---|---|---|
 //! | `.xml` | BSDF XML of LBNL (WINDOW, Radiance): matrices of Klems patches, tensor trees | [`TwoSided`] |
+//! | `.binary` | MERL's database | [`Merl`](steradian::brdf::measured::Merl) |
 //!
 //! A file becomes a model for each band it has, what its header tells, and warnings about what was mended or passed over.
 
 mod error;
+pub mod merl;
 pub mod reciprocity;
 pub mod xml;
 
@@ -16,7 +18,7 @@ use steradian::brdf::Measured;
 use steradian::brdf::measured::{Block, TwoSided};
 
 use crate::files::{Files, reason};
-pub use error::{BsdfError, XmlFault};
+pub use error::{BinaryFault, BsdfError, XmlFault};
 
 /// Bands that a scene is shown in, the best first.
 const SEEN: [&str; 1] = ["Visible"];
@@ -62,6 +64,7 @@ type Reader = fn(&[u8]) -> Result<MeasuredFile, BsdfError>;
 fn reader(path: &Path) -> Option<Reader> {
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "xml" => Some(xml::read),
+        "binary" => Some(merl::read),
         _ => None,
     }
 }
@@ -104,5 +107,6 @@ pub fn division(block: &Block) -> String {
 pub fn two_sided(model: &Measured) -> Option<&TwoSided> {
     match model {
         Measured::TwoSided(table) => Some(table),
+        _ => None,
     }
 }

@@ -3,6 +3,7 @@
 //! | model | table | of |
 //! |---|---|---|
 //! | [`TwoSided`] | patches of Klems, tensor trees; four blocks | LBNL BSDF XML |
+//! | [`Merl`] | half and difference angles, red, green and blue | MERL |
 //!
 //! Directions keep the contract of [`brdf`](super): the table's incidence is d_i, where the light comes from, and its
 //! scattering is d_e. ρ is what the table holds, constant on its patches or leaves; nothing is made reciprocal, so the
@@ -30,6 +31,8 @@ mod basis;
 mod disc;
 mod error;
 mod matrix;
+mod merl;
+mod reading;
 mod tree;
 mod two_sided;
 
@@ -38,6 +41,8 @@ use std::sync::Arc;
 pub use basis::AngleBasis;
 pub use error::MeasuredError;
 pub use matrix::PatchMatrix;
+pub use merl::Merl;
+pub use reading::Reading;
 pub use tree::{Rank, TensorTree, TreeBuilder};
 pub use two_sided::{Block, Side, TwoSided};
 
@@ -50,13 +55,25 @@ use crate::quantity::Spectrum;
 pub enum Measured {
     /// Blocks of reflection and transmission of either side.
     TwoSided(Arc<TwoSided>),
+    /// Isotropic reflection by half and difference vector.
+    Merl(Arc<Merl>, Reading),
 }
 
 impl Measured {
+    /// The same table for the lanes of a run; none if it says nothing about them, as colours do about wavelengths.
+    pub fn in_lanes(&self, lanes: Reading) -> Option<Self> {
+        match (self, lanes) {
+            (Self::TwoSided(_), _) => Some(self.clone()),
+            (Self::Merl(..), Reading::Wavelengths(_)) => None,
+            (Self::Merl(table, _), _) => Some(Self::Merl(Arc::clone(table), lanes)),
+        }
+    }
+
     /// ρ(d_e, d_i).
     pub fn evaluate(&self, wo: Direction, wi: Direction) -> Spectrum {
         match self {
             Self::TwoSided(table) => table.evaluate(wo, wi),
+            Self::Merl(table, reading) => table.evaluate(wo, wi, *reading),
         }
     }
 
@@ -64,6 +81,7 @@ impl Measured {
     pub fn sample(&self, wo: Direction, u: [f64; 2]) -> Option<Scatter> {
         match self {
             Self::TwoSided(table) => table.sample(wo, u),
+            Self::Merl(table, reading) => table.sample(wo, u, *reading),
         }
     }
 
@@ -71,6 +89,7 @@ impl Measured {
     pub fn pdf(&self, wo: Direction, wi: Direction) -> f64 {
         match self {
             Self::TwoSided(table) => table.pdf(wo, wi),
+            Self::Merl(table, _) => table.pdf(wo, wi),
         }
     }
 
@@ -78,6 +97,7 @@ impl Measured {
     pub fn albedo(&self, wo: Direction) -> Spectrum {
         match self {
             Self::TwoSided(table) => to_spectrum(table.totals(wo)[0]),
+            Self::Merl(table, reading) => reading.of_colour(table.albedo(wo)),
         }
     }
 
@@ -85,6 +105,7 @@ impl Measured {
     pub fn transmittance(&self, wo: Direction) -> Spectrum {
         match self {
             Self::TwoSided(table) => to_spectrum(table.totals(wo)[1]),
+            Self::Merl(..) => Spectrum::ZERO,
         }
     }
 }
