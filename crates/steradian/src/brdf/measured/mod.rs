@@ -33,6 +33,8 @@ mod error;
 mod matrix;
 mod merl;
 mod reading;
+#[cfg(test)]
+pub(crate) mod testing;
 mod tree;
 mod two_sided;
 

@@ -52,6 +52,10 @@ static FINITE: LazyLock<Vec<Subject>> = LazyLock::new(|| {
         models.push(subject(Brdf::Phong(model), 2e-4, 2.0));
     }
     models.extend(rough_models());
+    let measured = measured::testing::subjects().into_iter();
+    models.extend(
+        measured.map(|(model, error, weight)| subject(Brdf::Measured(model), error, weight)),
+    );
     models.extend(layered_models());
     models
 });
