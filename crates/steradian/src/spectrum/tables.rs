@@ -8,6 +8,7 @@ pub(super) const CIE_1951_SCOTOPIC: &str = include_str!("../../data/spectra/cie_
 pub(super) const CIE_S026_MELANOPIC: &str =
     include_str!("../../data/spectra/cie_s026_melanopic.csv");
 pub(super) const DAYLIGHT: &str = include_str!("../../data/spectra/daylight_components.csv");
+pub(super) const INDICES: &str = include_str!("../../data/spectra/indices.csv");
 pub(super) const LAMPS: &str = include_str!("../../data/spectra/lamps.csv");
 
 /// A column of one of these tables against its first, which holds nm; the first line names the columns.
@@ -31,6 +32,7 @@ mod tests {
             (CIE_1951_SCOTOPIC, 1, 401, [380.0, 780.0]),
             (CIE_S026_MELANOPIC, 1, 401, [380.0, 780.0]),
             (DAYLIGHT, 3, 54, [300.0, 830.0]),
+            (INDICES, 16, 81, [380.0, 780.0]),
             (LAMPS, 5, 81, [380.0, 780.0]),
         ] {
             for index in 1..=columns {
