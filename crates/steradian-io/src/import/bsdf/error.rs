@@ -56,6 +56,44 @@ pub enum BinaryFault {
     /// A number that is infinite or NaN, in single precision.
     #[error("{0} is no finite number")]
     NotFinite(String),
+    /// Not a tensor file.
+    #[error("not a tensor file: it does not begin with \"tensor_file\"")]
+    NoTensors,
+    /// More fields or dimensions than any file has.
+    #[error("{count} fields or dimensions, {most} at most")]
+    Many {
+        /// How many the file says.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
+    /// A field is missing.
+    #[error("the file has no field {0}")]
+    NoField(&'static str),
+    /// A field of other numbers than is usual.
+    #[error("field {name} has numbers of type {found}")]
+    Type {
+        /// The field.
+        name: String,
+        /// The code of the type.
+        found: u8,
+    },
+    /// A field of other dimensions than its nodes have.
+    #[error("field {name} has the dimensions {shape:?}, which do not fit the nodes of incidence")]
+    Shape {
+        /// The field.
+        name: String,
+        /// Its dimensions.
+        shape: Vec<usize>,
+    },
+    /// Numbers of a field that make no table.
+    #[error("field {name}: {fault}")]
+    Field {
+        /// The field.
+        name: &'static str,
+        /// What is wrong.
+        fault: MeasuredError,
+    },
     /// Values that make no table.
     #[error("{0}")]
     Table(MeasuredError),

@@ -4,12 +4,14 @@
 //! |---|---|---|
 //! | `.xml` | BSDF XML of LBNL (WINDOW, Radiance): matrices of Klems patches, tensor trees | [`TwoSided`] |
 //! | `.binary` | MERL's database | [`Merl`](steradian::brdf::measured::Merl) |
+//! | `.bsdf` | tensor files of EPFL's RGL | [`Rgl`](steradian::brdf::measured::Rgl) |
 //!
 //! A file becomes a model for each band it has, what its header tells, and warnings about what was mended or passed over.
 
 mod error;
 pub mod merl;
 pub mod reciprocity;
+pub mod rgl;
 pub mod xml;
 
 use std::path::Path;
@@ -65,6 +67,7 @@ fn reader(path: &Path) -> Option<Reader> {
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "xml" => Some(xml::read),
         "binary" => Some(merl::read),
+        "bsdf" => Some(rgl::read),
         _ => None,
     }
 }

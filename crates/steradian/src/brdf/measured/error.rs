@@ -34,6 +34,9 @@ pub enum MeasuredError {
         /// What it is.
         found: f32,
     },
+    /// Nodes that do not rise.
+    #[error("nodes are not finite, or do not rise from one to the next")]
+    Nodes,
     /// A grid of a tree that is no cube.
     #[error("a grid of {found} values is no cube of 1, 2, 4 … along every axis")]
     Grid {

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`TwoSided`] | patches of Klems, tensor trees; four blocks | LBNL BSDF XML |
 //! | [`Merl`] | half and difference angles, red, green and blue | MERL |
+//! | [`Rgl`] | warped half vectors, spectra or colours | EPFL's RGL |
 //!
 //! Directions keep the contract of [`brdf`](super): the table's incidence is d_i, where the light comes from, and its
 //! scattering is d_e. ρ is what the table holds, constant on its patches or leaves; nothing is made reciprocal, so the
@@ -33,10 +34,12 @@ mod error;
 mod matrix;
 mod merl;
 mod reading;
+mod rgl;
 #[cfg(test)]
 pub(crate) mod testing;
 mod tree;
 mod two_sided;
+mod warp;
 
 use std::sync::Arc;
 
@@ -45,8 +48,10 @@ pub use error::MeasuredError;
 pub use matrix::PatchMatrix;
 pub use merl::Merl;
 pub use reading::Reading;
+pub use rgl::{Rgl, RglTables};
 pub use tree::{Rank, TensorTree, TreeBuilder};
 pub use two_sided::{Block, Side, TwoSided};
+pub use warp::Sheets;
 
 use super::Scatter;
 use crate::geometry::Direction;
@@ -59,6 +64,8 @@ pub enum Measured {
     TwoSided(Arc<TwoSided>),
     /// Isotropic reflection by half and difference vector.
     Merl(Arc<Merl>, Reading),
+    /// Reflection on warped half vectors.
+    Rgl(Arc<Rgl>, Reading),
 }
 
 impl Measured {
@@ -67,6 +74,8 @@ impl Measured {
         match (self, lanes) {
             (Self::TwoSided(_), _) => Some(self.clone()),
             (Self::Merl(..), Reading::Wavelengths(_)) => None,
+            (Self::Rgl(table, _), Reading::Wavelengths(_)) if table.wavelengths().is_none() => None,
+            (Self::Rgl(table, _), _) => Some(Self::Rgl(Arc::clone(table), lanes)),
             (Self::Merl(table, _), _) => Some(Self::Merl(Arc::clone(table), lanes)),
         }
     }
@@ -76,6 +85,7 @@ impl Measured {
         match self {
             Self::TwoSided(table) => table.evaluate(wo, wi),
             Self::Merl(table, reading) => table.evaluate(wo, wi, *reading),
+            Self::Rgl(table, reading) => table.evaluate(wo, wi, *reading),
         }
     }
 
@@ -84,6 +94,7 @@ impl Measured {
         match self {
             Self::TwoSided(table) => table.sample(wo, u),
             Self::Merl(table, reading) => table.sample(wo, u, *reading),
+            Self::Rgl(table, reading) => table.sample(wo, u, *reading),
         }
     }
 
@@ -92,6 +103,7 @@ impl Measured {
         match self {
             Self::TwoSided(table) => table.pdf(wo, wi),
             Self::Merl(table, _) => table.pdf(wo, wi),
+            Self::Rgl(table, _) => table.pdf(wo, wi),
         }
     }
 
@@ -100,6 +112,7 @@ impl Measured {
         match self {
             Self::TwoSided(table) => to_spectrum(table.totals(wo)[0]),
             Self::Merl(table, reading) => reading.of_colour(table.albedo(wo)),
+            Self::Rgl(table, reading) => table.albedo(wo, *reading),
         }
     }
 
@@ -107,7 +120,7 @@ impl Measured {
     pub fn transmittance(&self, wo: Direction) -> Spectrum {
         match self {
             Self::TwoSided(table) => to_spectrum(table.totals(wo)[1]),
-            Self::Merl(..) => Spectrum::ZERO,
+            Self::Merl(..) | Self::Rgl(..) => Spectrum::ZERO,
         }
     }
 }
