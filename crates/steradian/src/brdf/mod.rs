@@ -40,6 +40,7 @@ mod oren_nayar;
 mod pane;
 mod phong;
 mod plastic;
+mod principled;
 mod sampling;
 mod smooth_conductor;
 mod smooth_dielectric;
@@ -58,6 +59,7 @@ pub use oren_nayar::OrenNayar;
 pub use pane::Pane;
 pub use phong::Phong;
 pub use plastic::Plastic;
+pub use principled::{Parameters as PrincipledParameters, Principled};
 pub use smooth_conductor::SmoothConductor;
 pub use smooth_dielectric::SmoothDielectric;
 pub use ward::Ward;
@@ -148,6 +150,8 @@ pub enum Brdf {
     Ward(Ward),
     /// Several models side by side.
     Mixture(Mixture),
+    /// glTF's material.
+    Principled(Box<Principled>),
 }
 
 /// What a model with values in 1/sr says, or what is so of the others.
@@ -166,6 +170,7 @@ macro_rules! finite {
             Brdf::RoughPlastic($model) => $says,
             Brdf::Ward($model) => $says,
             Brdf::Mixture($model) => $says,
+            Brdf::Principled($model) => $says,
             Brdf::Mirror(_)
             | Brdf::SmoothConductor(_)
             | Brdf::SmoothDielectric(_)
@@ -220,6 +225,7 @@ impl Brdf {
             Self::Pane(model) => model.transmittance(wo),
             Self::Ward(model) => model.transmittance(wo),
             Self::Mixture(model) => model.transmittance(wo),
+            Self::Principled(model) => model.transmittance(wo),
             _ => Spectrum::ZERO,
         }
     }
@@ -230,6 +236,7 @@ impl Brdf {
             Self::SmoothDielectric(model) => Some(model.eta()),
             Self::RoughDielectric(model) => Some(model.eta()),
             Self::Mixture(model) => model.interior_index(),
+            Self::Principled(model) => model.interior_index(),
             _ => None,
         }
     }
@@ -237,11 +244,16 @@ impl Brdf {
     /// (n_e/n_i)²: radiance towards `wo` over radiance from `wi` of the same power, by the indices of their sides.
     pub fn radiance_scale(&self, wo: Direction, wi: Direction) -> f64 {
         let eta = self.interior_index().unwrap_or(1.0);
-        match (wo.z() < 0.0, wi.z() < 0.0) {
-            (true, false) => eta * eta,
-            (false, true) => 1.0 / (eta * eta),
-            _ => 1.0,
-        }
+        scale_of(eta, wo, wi)
+    }
+}
+
+/// (n_e/n_i)² by the index below over that above.
+fn scale_of(eta: f64, wo: Direction, wi: Direction) -> f64 {
+    match (wo.z() < 0.0, wi.z() < 0.0) {
+        (true, false) => eta * eta,
+        (false, true) => 1.0 / (eta * eta),
+        _ => 1.0,
     }
 }
 

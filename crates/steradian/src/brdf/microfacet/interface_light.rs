@@ -16,6 +16,17 @@ use crate::geometry::Direction;
 
 /// One facet's reflectance and transmittance for light along `wo`, which lies above the surface.
 pub(super) fn first_shares(facets: Facets, wo: Direction, eta: f64, fineness: usize) -> [f64; 2] {
+    weighed_shares(facets, wo, eta, fineness, |_| 1.0)
+}
+
+/// The same, with the light of every direction multiplied by `f`.
+pub(super) fn weighed_shares(
+    facets: Facets,
+    wo: Direction,
+    eta: f64,
+    fineness: usize,
+    f: impl Fn(Direction) -> f64,
+) -> [f64; 2] {
     let light = Light {
         facets,
         wo,
@@ -24,14 +35,17 @@ pub(super) fn first_shares(facets: Facets, wo: Direction, eta: f64, fineness: us
     };
     let fan = Fan::new(facets, wo, fineness);
     let last = light.last_place(&fan);
-    let [white] = mirrored_light(facets, wo, fineness, |_| [1.0]);
+    let [white] = mirrored_light(facets, wo, fineness, |_| [1.0], &f);
     let both = |ray: &Ray| {
         let ([low, high], [_, border]) = (light.transmitting(ray)?, ray.mirroring()?);
         (low < border).then_some([low, high.min(border)])
     };
-    let [kept] = fan.integrate_below(last, both, |m| [light.not_reflected(m)]);
-    let [transmitted] =
-        fan.integrate_below(last, |ray| light.leaving(ray), |m| [light.transmitted(m)]);
+    let [kept] = fan.integrate_below(last, both, |m| [light.not_reflected(m, &f)]);
+    let [transmitted] = fan.integrate_below(
+        last,
+        |ray| light.leaving(ray),
+        |m| [light.transmitted(m, &f)],
+    );
     [white - kept, transmitted]
 }
 
@@ -116,19 +130,20 @@ impl Light {
         (c - (c * c - self.critical).max(0.0).sqrt()) / length <= cos
     }
 
-    fn not_reflected(&self, m: Direction) -> f64 {
+    fn not_reflected(&self, m: Direction, f: impl Fn(Direction) -> f64) -> f64 {
         let mirrored = m.mirror(self.wo);
         if mirrored.z() <= 0.0 {
             return 0.0;
         }
         let cos = self.wo.dot(m).clamp(0.0, 1.0);
-        (1.0 - dielectric(cos, self.eta).mean()) * self.facets.shadowing(self.wo, mirrored)
+        let visible = self.facets.shadowing(self.wo, mirrored) * f(mirrored);
+        (1.0 - dielectric(cos, self.eta).mean()) * visible
     }
 
-    fn transmitted(&self, m: Direction) -> f64 {
+    fn transmitted(&self, m: Direction, f: impl Fn(Direction) -> f64) -> f64 {
         let cos = self.wo.dot(m).clamp(0.0, 1.0);
         let refracted = refract(self.wo, m, self.eta).filter(|refracted| refracted.z() < 0.0);
-        let visible = refracted.map_or(0.0, |refracted| self.facets.masking(refracted));
+        let visible = refracted.map_or(0.0, |wi| self.facets.masking(wi) * f(wi));
         (1.0 - dielectric(cos, self.eta).mean()) * self.facets.masking(self.wo) * visible
     }
 }

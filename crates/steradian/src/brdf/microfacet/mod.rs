@@ -9,8 +9,8 @@ mod quadrature;
 mod rough_conductor;
 mod rough_dielectric;
 mod rough_plastic;
-mod shelf;
-mod table;
+pub(super) mod shelf;
+pub(super) mod table;
 
 pub use facets::{Facets, Shadowing, Slopes};
 pub use rough_conductor::RoughConductor;

@@ -15,6 +15,8 @@
 //! drawn from the visible normals (weight at most F), the second in proportion to (1 − E) cosθ (weight at most about
 //! F_ms); the second is taken with probability 1 − E(d_e), so that a weight is at most 1/E(d_e).
 //!
+//! [`schlick`](RoughConductor::schlick) has F = F₀ + (F₉₀ − F₀)(1 − d_e·m)⁵ instead, as glTF asks for.
+//!
 //! Source: B. Walter et al., EGSR 2007, eq. 20; C. Kulla and A. Conty, SIGGRAPH 2017 course, with F̄² for light
 //! that met at least two facets (E. Turquin, *Practical multiple scattering compensation*, 2019). The colour of
 //! the second term is an approximation, its energy is not.
@@ -38,9 +40,10 @@ use super::half_way;
 use super::quadrature::{Fan, Ray};
 use super::shelf::{Blend, Recent, Shelf};
 use super::table::Table;
+use crate::brdf::error::share;
 use crate::brdf::fresnel::schlick_rise;
 use crate::brdf::sampling::choose;
-use crate::brdf::{ComplexIndex, Scatter, to_spectrum};
+use crate::brdf::{ComplexIndex, ModelError, Scatter, to_spectrum};
 use crate::geometry::Direction;
 use crate::quantity::Spectrum;
 
@@ -48,8 +51,39 @@ use crate::quantity::Spectrum;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoughConductor {
     facets: Facets,
-    index: ComplexIndex,
+    mirror: Mirroring,
     later: Option<LaterLight>,
+}
+
+/// What a facet reflects.
+#[derive(Copy, Clone, Debug, PartialEq)]
+enum Mirroring {
+    /// By Fresnel's equations.
+    Metal(ComplexIndex),
+    /// By Schlick's approximation, from reflectances along the normal and at the horizon.
+    Schlick { normal: [f64; 4], grazing: [f64; 4] },
+}
+
+impl Mirroring {
+    fn reflectance(&self, cos: f64) -> [f64; 4] {
+        match self {
+            Self::Metal(index) => index.reflectance(cos),
+            Self::Schlick { normal, grazing } => {
+                let rise = schlick_rise(cos);
+                std::array::from_fn(|lane| normal[lane] + (grazing[lane] - normal[lane]) * rise)
+            }
+        }
+    }
+
+    /// 2 ∫ (1 − µ)⁵ µ dµ = 1/21.
+    fn average(&self) -> [f64; 4] {
+        match self {
+            Self::Metal(index) => index.average_reflectance(),
+            Self::Schlick { normal, grazing } => {
+                std::array::from_fn(|lane| normal[lane] + (grazing[lane] - normal[lane]) / 21.0)
+            }
+        }
+    }
 }
 
 /// The second term.
@@ -67,9 +101,35 @@ impl RoughConductor {
     /// a second unless one like it was made before, so that its widths should not vary from point to point.
     pub fn new(facets: Facets, index: ComplexIndex) -> Self {
         Self {
-            later: Some(LaterLight::new(white_shares(facets), index)),
+            later: Some(LaterLight::new(
+                white_shares(facets),
+                Mirroring::Metal(index),
+            )),
             ..Self::single_scattering(facets, index)
         }
+    }
+
+    /// With multiple scattering, of facets that reflect by Schlick's approximation: a share along the normal that rises to another
+    /// at the horizon.
+    ///
+    /// # Errors
+    /// If a lane lies outside 0 … 1.
+    pub fn schlick(
+        facets: Facets,
+        normal: Spectrum,
+        grazing: Spectrum,
+    ) -> Result<Self, ModelError> {
+        let lanes =
+            |name, found| share(name, found).map(|found: Spectrum| found.to_lanes().map(f64::from));
+        let mirror = Mirroring::Schlick {
+            normal: lanes("reflectance along the normal", normal)?,
+            grazing: lanes("reflectance at the horizon", grazing)?,
+        };
+        Ok(Self {
+            facets,
+            mirror,
+            later: Some(LaterLight::new(white_shares(facets), mirror)),
+        })
     }
 
     /// The same surface of another metal.
@@ -77,7 +137,8 @@ impl RoughConductor {
     pub fn with_index(&self, index: ComplexIndex) -> Self {
         let later = self.later.as_ref();
         Self {
-            later: later.map(|later| LaterLight::new(later.shares.clone(), index)),
+            later: later
+                .map(|later| LaterLight::new(later.shares.clone(), Mirroring::Metal(index))),
             ..Self::single_scattering(self.facets, index)
         }
     }
@@ -86,7 +147,7 @@ impl RoughConductor {
     pub const fn single_scattering(facets: Facets, index: ComplexIndex) -> Self {
         Self {
             facets,
-            index,
+            mirror: Mirroring::Metal(index),
             later: None,
         }
     }
@@ -98,7 +159,7 @@ impl RoughConductor {
         };
         let first =
             self.facets.density(m) * self.facets.shadowing(wo, wi) / (4.0 * wo.z() * wi.z());
-        let reflectance = self.index.reflectance(wo.dot(m).clamp(0.0, 1.0));
+        let reflectance = self.mirror.reflectance(wo.dot(m).clamp(0.0, 1.0));
         let later = self
             .later
             .as_ref()
@@ -139,20 +200,49 @@ impl RoughConductor {
         if wo.z() <= 0.0 {
             return Spectrum::ZERO;
         }
-        let first = self.first(wo, 1);
-        let share = self.later_share(wo);
-        let later = self
-            .later
-            .as_ref()
-            .map_or([0.0; 4], |later| later.reflectance);
-        to_spectrum(std::array::from_fn(|lane| {
-            first[lane] + share * later[lane]
-        }))
+        to_spectrum(self.leaving(wo, |_| 1.0))
+    }
+
+    /// ∫ ρ f cosθ_i dω_i, where f does not depend on azimuth.
+    pub(in crate::brdf) fn leaving(&self, wo: Direction, f: impl Fn(Direction) -> f64) -> [f64; 4] {
+        let reflectance = |cos| self.mirror.reflectance(cos);
+        let first = mirrored_light(self.facets, wo, 1, reflectance, &f);
+        let Some(later) = &self.later else {
+            return first;
+        };
+        let again = later.shares.missing(0, wo) * later.shares.mean(0, f);
+        std::array::from_fn(|lane| first[lane] + again * later.reflectance[lane])
     }
 
     /// Albedo of the first term.
+    #[cfg(test)]
     pub(super) fn first(&self, wo: Direction, fineness: usize) -> [f64; 4] {
-        mirrored_light(self.facets, wo, fineness, |cos| self.index.reflectance(cos))
+        let reflectance = |cos| self.mirror.reflectance(cos);
+        mirrored_light(self.facets, wo, fineness, reflectance, |_| 1.0)
+    }
+
+    /// The albedo of a surface by Schlick's approximation with multiple scattering, from the tables.
+    pub(in crate::brdf) fn tabulated_albedo(&self, wo: Direction) -> [f64; 4] {
+        self.mixed_by(|shares| shares.at(0, wo))
+    }
+
+    /// Its hemispherical mean.
+    pub(in crate::brdf) fn tabulated_average(&self) -> [f64; 4] {
+        self.mixed_by(|shares| shares.averages(0))
+    }
+
+    /// F₀ (1 − M − N) + F₉₀ N + F_ms M.
+    fn mixed_by(&self, shares: impl Fn(&Blend<1>) -> [f64; 2]) -> [f64; 4] {
+        let (Mirroring::Schlick { normal, grazing }, Some(later)) = (self.mirror, &self.later)
+        else {
+            return [1.0; 4];
+        };
+        let [missing, rise] = shares(&later.shares);
+        std::array::from_fn(|lane| {
+            normal[lane] * (1.0 - missing - rise)
+                + grazing[lane] * rise
+                + later.reflectance[lane] * missing
+        })
     }
 
     /// 1 − E(d_e), or 0 for single scattering.
@@ -164,10 +254,10 @@ impl RoughConductor {
 }
 
 impl LaterLight {
-    fn new(shares: Blend<1>, index: ComplexIndex) -> Self {
+    fn new(shares: Blend<1>, mirror: Mirroring) -> Self {
         let average = 1.0 - shares.average(0);
-        let reflectance = index
-            .average_reflectance()
+        let reflectance = mirror
+            .average()
             .map(|f| f * f * average / (1.0 - f * (1.0 - average)));
         Self {
             shares,
@@ -182,21 +272,22 @@ impl LaterLight {
     }
 }
 
-/// ∫ F D G₂/(4 cosθ_e) dω_i, with F by the cosine of d_e to the facet.
+/// ∫ F D G₂/(4 cosθ_e) f dω_i, with F by the cosine of d_e to the facet and f by d_i.
 pub(super) fn mirrored_light<const N: usize>(
     facets: Facets,
     wo: Direction,
     fineness: usize,
     reflectance: impl Fn(f64) -> [f64; N],
+    f: impl Fn(Direction) -> f64,
 ) -> [f64; N] {
     Fan::new(facets, wo, fineness).integrate(Ray::mirroring, |m| {
         let wi = m.mirror(wo);
         let visible = if wi.z() > 0.0 {
-            facets.shadowing(wo, wi)
+            facets.shadowing(wo, wi) * f(wi)
         } else {
             0.0
         };
-        reflectance(wo.dot(m).clamp(0.0, 1.0)).map(|f| f * visible)
+        reflectance(wo.dot(m).clamp(0.0, 1.0)).map(|share| share * visible)
     })
 }
 
@@ -220,7 +311,8 @@ pub(super) fn white_shares(facets: Facets) -> Blend<1> {
 
 fn white_table(facets: Facets) -> Table {
     Table::new(facets.stretch(), |wo| {
-        let [white, schlick] = mirrored_light(facets, wo, 1, |cos| [1.0, schlick_rise(cos)]);
+        let both = |cos| [1.0, schlick_rise(cos)];
+        let [white, schlick] = mirrored_light(facets, wo, 1, both, |_| 1.0);
         [1.0 - white, schlick]
     })
 }

@@ -38,7 +38,7 @@
 use std::f64::consts::FRAC_1_PI;
 
 use super::facets::{Facets, Shadowing, Slopes};
-use super::interface_light::first_shares;
+use super::interface_light::{first_shares, weighed_shares};
 use super::shelf::{Blend, Recent, Shelf};
 use super::table::Table;
 use crate::brdf::error::{in_range, share};
@@ -129,6 +129,11 @@ impl RoughDielectric {
         Ok(Self { tints, ..self })
     }
 
+    /// Of reflected and of transmitted light.
+    pub(in crate::brdf) const fn tints(&self) -> [Spectrum; 2] {
+        self.tints
+    }
+
     /// The index inside over the index outside.
     pub const fn eta(&self) -> f64 {
         self.eta
@@ -189,18 +194,27 @@ impl RoughDielectric {
     }
 
     fn shares(&self, wo: Direction) -> [f64; 2] {
+        self.leaving(wo, |_| 1.0)
+    }
+
+    /// Shares of power, without tints, reflected and transmitted light of every direction multiplied by f, which does not depend
+    /// on azimuth.
+    pub(in crate::brdf) fn leaving(&self, wo: Direction, f: impl Fn(Direction) -> f64) -> [f64; 2] {
         let Some(view) = View::new(wo, wo, self.eta) else {
             return [0.0; 2];
         };
-        let [reflected, transmitted] = first_shares(self.facets, view.wo, view.eta, 1);
-        let through = self
-            .later
-            .as_ref()
-            .map_or(0.0, |later| later.transmitted[view.side]);
+        let seen = |wi: Direction| f(if view.side == 0 { wi } else { flipped(wi) });
+        let [reflected, transmitted] = weighed_shares(self.facets, view.wo, view.eta, 1, seen);
+        let Some(later) = &self.later else {
+            return [reflected, transmitted];
+        };
         let share = self.later_share(wo);
+        let through = later.transmitted[view.side];
+        let near = later.shares.mean(view.side, seen);
+        let far = later.shares.mean(1 - view.side, |wi| seen(flipped(wi)));
         [
-            reflected + share * (1.0 - through),
-            transmitted + share * through,
+            reflected + share * (1.0 - through) * near,
+            transmitted + share * through * far,
         ]
     }
 

@@ -6,6 +6,7 @@
 //! roughness may vary from point to point at no cost. Anisotropic surfaces have tables of exactly their widths.
 
 use std::collections::VecDeque;
+use std::fmt;
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use super::table::Table;
@@ -21,19 +22,23 @@ const KEPT: usize = 32;
 type Tables<const SIDES: usize> = Arc<[Table; SIDES]>;
 
 /// Tables of all widths.
-pub(super) struct Shelf<const SIDES: usize> {
+pub(in crate::brdf) struct Shelf<const SIDES: usize> {
     widths: [OnceLock<Tables<SIDES>>; WIDTHS + 1],
 }
 
 impl<const SIDES: usize> Shelf<SIDES> {
-    pub(super) const fn new() -> Self {
+    pub(in crate::brdf) const fn new() -> Self {
         Self {
             widths: [const { OnceLock::new() }; WIDTHS + 1],
         }
     }
 
     /// Between the tables of the two next widths, from how they are made.
-    pub(super) fn blend(&self, alpha: f64, make: impl Fn(f64) -> [Table; SIDES]) -> Blend<SIDES> {
+    pub(in crate::brdf) fn blend(
+        &self,
+        alpha: f64,
+        make: impl Fn(f64) -> [Table; SIDES],
+    ) -> Blend<SIDES> {
         let place = libm::cbrt(alpha) * WIDTHS as f64;
         let node = (place as usize).clamp(1, WIDTHS - 1);
         let width = |node: usize| {
@@ -50,14 +55,14 @@ impl<const SIDES: usize> Shelf<SIDES> {
 }
 
 /// What was made for the keys asked for last.
-pub(super) struct Recent<K, V>(RwLock<VecDeque<(K, Arc<V>)>>);
+pub(in crate::brdf) struct Recent<K, V>(RwLock<VecDeque<(K, Arc<V>)>>);
 
 impl<K: PartialEq, V> Recent<K, V> {
-    pub(super) const fn new() -> Self {
+    pub(in crate::brdf) const fn new() -> Self {
         Self(RwLock::new(VecDeque::new()))
     }
 
-    pub(super) fn get(&self, key: K, make: impl FnOnce() -> V) -> Arc<V> {
+    pub(in crate::brdf) fn get(&self, key: K, make: impl FnOnce() -> V) -> Arc<V> {
         let find = |kept: &VecDeque<(K, Arc<V>)>| {
             let entry = kept.iter().find(|(known, _)| *known == key);
             entry.map(|(_, value)| value.clone())
@@ -78,16 +83,22 @@ impl<K: PartialEq, V> Recent<K, V> {
 }
 
 /// Between two tables of each side.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Blend<const SIDES: usize> {
+#[derive(Clone, PartialEq)]
+pub(in crate::brdf) struct Blend<const SIDES: usize> {
     tables: [Tables<SIDES>; 2],
     /// Of the second.
     part: f64,
 }
 
+impl<const SIDES: usize> fmt::Debug for Blend<SIDES> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Blend").finish_non_exhaustive()
+    }
+}
+
 impl<const SIDES: usize> Blend<SIDES> {
     /// One table.
-    pub(super) fn exactly(tables: Tables<SIDES>) -> Self {
+    pub(in crate::brdf) fn exactly(tables: Tables<SIDES>) -> Self {
         Self {
             tables: [tables.clone(), tables],
             part: 0.0,
@@ -95,7 +106,7 @@ impl<const SIDES: usize> Blend<SIDES> {
     }
 
     /// (M, N) of a direction above the surface.
-    pub(super) fn at(&self, side: usize, direction: Direction) -> [f64; 2] {
+    pub(in crate::brdf) fn at(&self, side: usize, direction: Direction) -> [f64; 2] {
         let first = self.tables[0][side].at(direction);
         if self.part == 0.0 {
             return first;
@@ -105,32 +116,41 @@ impl<const SIDES: usize> Blend<SIDES> {
     }
 
     /// M of a direction above the surface.
-    pub(super) fn missing(&self, side: usize, direction: Direction) -> f64 {
+    pub(in crate::brdf) fn missing(&self, side: usize, direction: Direction) -> f64 {
         self.at(side, direction)[0]
     }
 
     /// M̄.
-    pub(super) fn average(&self, side: usize) -> f64 {
+    pub(in crate::brdf) fn average(&self, side: usize) -> f64 {
         self.averages(side)[0]
     }
 
     /// M̄ and N̄.
-    pub(super) fn averages(&self, side: usize) -> [f64; 2] {
+    pub(in crate::brdf) fn averages(&self, side: usize) -> [f64; 2] {
         let [first, second] = [0, 1].map(|k| self.tables[k][side].averages());
         [0, 1].map(|share| first[share] + self.part * (second[share] - first[share]))
     }
 
     /// A direction above the surface, of density M cosθ/(π M̄) in the mean over azimuth.
-    pub(super) fn sample(&self, side: usize, u: [f64; 2]) -> Direction {
+    pub(in crate::brdf) fn sample(&self, side: usize, u: [f64; 2]) -> Direction {
         let (second, u0) = choose(u[0], self.share_of_second(side));
         self.tables[usize::from(second)][side].sample([u0, u[1]])
     }
 
     /// Its density.
-    pub(super) fn pdf(&self, side: usize, direction: Direction) -> f64 {
+    pub(in crate::brdf) fn pdf(&self, side: usize, direction: Direction) -> f64 {
         let share = self.share_of_second(side);
         let [first, second] = [0, 1].map(|k| self.tables[k][side].pdf(direction));
         first + share * (second - first)
+    }
+
+    /// The mean of a function over directions of that density, at 64 heights and azimuths by the golden ratio.
+    pub(in crate::brdf) fn mean(&self, side: usize, f: impl Fn(Direction) -> f64) -> f64 {
+        const POINTS: u32 = 64;
+        let turns = |k| f64::from(k) * 0.618_033_988_749_895;
+        let at = |k| [(f64::from(k) + 0.5) / f64::from(POINTS), turns(k).fract()];
+        let sum: f64 = (0..POINTS).map(|k| f(self.sample(side, at(k)))).sum();
+        sum / f64::from(POINTS)
     }
 
     fn share_of_second(&self, side: usize) -> f64 {

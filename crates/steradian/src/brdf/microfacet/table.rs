@@ -26,8 +26,8 @@ const LEAST: f64 = 1e-12;
 type Row = [[f64; 2]; BANDS + 1];
 
 /// M and N of every direction of one side.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Table {
+#[derive(Clone, PartialEq)]
+pub(in crate::brdf) struct Table {
     /// For each azimuth.
     rows: Vec<Row>,
     /// √(α_y/α_x).
@@ -40,7 +40,10 @@ pub(super) struct Table {
 
 impl Table {
     /// From (M, N) of directions above the surface, and √(α_y/α_x) of an anisotropic one.
-    pub(super) fn new(stretch: Option<f64>, shares: impl Fn(Direction) -> [f64; 2]) -> Self {
+    pub(in crate::brdf) fn new(
+        stretch: Option<f64>,
+        shares: impl Fn(Direction) -> [f64; 2],
+    ) -> Self {
         let sectors = if stretch.is_some() { SECTORS } else { 0 };
         let stretch = stretch.unwrap_or(1.0);
         let row = |sector: usize| {
@@ -69,12 +72,12 @@ impl Table {
     }
 
     /// M̄ and N̄.
-    pub(super) fn averages(&self) -> [f64; 2] {
+    pub(in crate::brdf) fn averages(&self) -> [f64; 2] {
         self.averages
     }
 
     /// (M, N) of a direction above the surface.
-    pub(super) fn at(&self, direction: Direction) -> [f64; 2] {
+    pub(in crate::brdf) fn at(&self, direction: Direction) -> [f64; 2] {
         let place = direction.z().clamp(0.0, 1.0).sqrt() * BANDS as f64;
         let node = (place as usize).min(BANDS - 1);
         let part = place - node as f64;
@@ -102,7 +105,7 @@ impl Table {
     }
 
     /// A direction above the surface.
-    pub(super) fn sample(&self, u: [f64; 2]) -> Direction {
+    pub(in crate::brdf) fn sample(&self, u: [f64; 2]) -> Direction {
         let band = self
             .cumulative
             .partition_point(|&upper| upper <= u[0])
@@ -115,7 +118,7 @@ impl Table {
     }
 
     /// Its density.
-    pub(super) fn pdf(&self, direction: Direction) -> f64 {
+    pub(in crate::brdf) fn pdf(&self, direction: Direction) -> f64 {
         let cos = direction.z();
         if cos <= 0.0 {
             return 0.0;

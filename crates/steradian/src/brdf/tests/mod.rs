@@ -57,6 +57,7 @@ static FINITE: LazyLock<Vec<Subject>> = LazyLock::new(|| {
         measured.map(|(model, error, weight)| subject(Brdf::Measured(model), error, weight)),
     );
     models.extend(layered_models());
+    models.extend(principled_models());
     models
 });
 
@@ -95,12 +96,78 @@ fn layered_models() -> Vec<Subject> {
         .collect()
 }
 
+/// glTF's materials, at corners where parts meet.
+fn principled_models() -> Vec<Subject> {
+    let plain = PrincipledParameters {
+        base_color: REFLECTANCE,
+        roughness: 0.5,
+        ..Default::default()
+    };
+    let car_paint = PrincipledParameters {
+        metallic: 0.5,
+        clearcoat: 1.0,
+        clearcoat_roughness: 0.3,
+        ..plain
+    };
+    let velvet = PrincipledParameters {
+        roughness: 1.0,
+        sheen_color: REFLECTANCE,
+        sheen_roughness: 0.5,
+        specular: 0.5,
+        ..plain
+    };
+    let frosted_sheet = PrincipledParameters {
+        transmission: 0.75,
+        ior: 1.33,
+        ..plain
+    };
+    let ground_solid = PrincipledParameters {
+        thin: false,
+        roughness: 0.8,
+        clearcoat: 0.5,
+        clearcoat_roughness: 0.6,
+        ..frosted_sheet
+    };
+    let brushed = PrincipledParameters {
+        metallic: 1.0,
+        anisotropy: 0.6,
+        anisotropy_rotation: 0.4,
+        specular_color: Spectrum::splat(3.0),
+        ..plain
+    };
+    [
+        plain,
+        car_paint,
+        velvet,
+        frosted_sheet,
+        ground_solid,
+        brushed,
+    ]
+    .map(|parameters| Principled::new(&parameters).unwrap())
+    .map(|model| subject(Brdf::Principled(Box::new(model)), 3e-3, 16.0))
+    .into()
+}
+
 /// Models that couple single directions and have values besides.
 fn half_smooth_models() -> Vec<Brdf> {
     let white = Plastic::new(1.5, Spectrum::ONE).unwrap();
     let coloured = Plastic::new(1.9, REFLECTANCE).unwrap();
     let polished = Ward::radiance_trans(REFLECTANCE, [0.1, 0.0], [0.5, 0.4]).unwrap();
     let chrome = Brdf::SmoothConductor(SmoothConductor::new(gold()));
+    let sheet = PrincipledParameters {
+        base_color: REFLECTANCE,
+        roughness: 0.0,
+        transmission: 0.5,
+        clearcoat: 0.5,
+        clearcoat_roughness: 0.5,
+        ..Default::default()
+    };
+    let solid = PrincipledParameters {
+        thin: false,
+        ..sheet
+    };
+    let [sheet, solid] = [sheet, solid]
+        .map(|parameters| Brdf::Principled(Box::new(Principled::new(&parameters).unwrap())));
     let paint = Brdf::Lambertian(lambertian([0.5; 4]));
     let flakes = Mixture::new(vec![(0.25, chrome), (0.7, paint)]).unwrap();
     vec![
@@ -108,6 +175,8 @@ fn half_smooth_models() -> Vec<Brdf> {
         Brdf::Plastic(coloured),
         Brdf::Ward(polished),
         Brdf::Mixture(flakes),
+        sheet,
+        solid,
     ]
 }
 
