@@ -3,10 +3,13 @@
 use steradian::brdf::Brdf;
 use steradian::geometry::{Direction, Point, Vector};
 use steradian::material::{ColorLanes, Recipe, Scalar, Site};
+use steradian::measurement::Measurements;
 use steradian::scene::Scene;
-use steradian::scene::description::{LaneValues, Media, SceneDescription, Varying};
+use steradian::scene::description::{
+    FluxOf, FluxSurface, LaneValues, Media, SceneDescription, SensorKind, Side, Varying,
+};
 use steradian::spectrum::Wavelengths;
-use steradian_tests::measuring::{measured, reading, samples, validated};
+use steradian_tests::measuring::{measured, reading, rel_error, samples, validated};
 use steradian_tests::scenes::*;
 use steradian_tests::{assert_agrees, assert_close};
 
@@ -175,4 +178,74 @@ fn a_path_keeps_its_medium_until_the_next_interface() {
     let irradiance = height / (way * way * way) * libm::exp(-absorption * way);
     let expected = 0.5 / std::f64::consts::PI * irradiance * libm::exp(-absorption * depth);
     assert_close("water", seen.value, expected, 1e-5 * expected);
+}
+
+/// In radiance 1 a plate of area A receives πA on each side; of that ρ + τ leaves again where light comes from both
+/// sides alike, and 1 − ρ − τ stays. Under a lamp on one side ρΦ leaves to it and τΦ to the other.
+#[test]
+fn a_diffuser_divides_its_flux() {
+    let (reflectance, transmittance) = (0.4, 0.35);
+    let paper = || Recipe::DiffuseTransmission {
+        reflectance: even(reflectance),
+        transmittance: even(transmittance),
+    };
+    let sheet = || square(2.0, 0.0).named("sheet").made_of("paper");
+    let fluxes = [
+        ("incident", FluxOf::Incident),
+        ("leaving", FluxOf::Leaving),
+        ("absorbed", FluxOf::Absorbed),
+        ("net", FluxOf::Net),
+    ];
+    let with = |light, facing| {
+        let mut scene = scene([modelled("paper", paper())], [sheet()], [light]);
+        for (name, of) in fluxes {
+            let surface = FluxSurface::Shape {
+                name: "sheet".into(),
+                side: facing,
+            };
+            scene
+                .sensors
+                .push(sensor(name, SensorKind::Flux { surface, of }));
+        }
+        measured(&scene, &samples(1 << 16))
+    };
+    let check = |measured: &Measurements, expected: [f64; 4]| {
+        for ((name, _), expected) in fluxes.iter().zip(expected) {
+            let seen = reading(measured, name).estimate;
+            assert_agrees(name, &seen, expected, 1e-6 * expected.abs());
+        }
+    };
+    let all = 4.0 * std::f64::consts::PI;
+    let stays = 1.0 - reflectance - transmittance;
+    let expected = [all, all * (1.0 - stays), all * stays, all * stays];
+    check(&with(environment(1.0), Side::Front), expected);
+    let lamp = || directional(DOWN, 2.0);
+    let power = 8.0;
+    let bright = [power, power * reflectance, power * stays, power * (1.0 - reflectance)];
+    check(&with(lamp(), Side::Front), bright);
+    let dark = [0.0, power * transmittance, 0.0, -power * transmittance];
+    check(&with(lamp(), Side::Back), dark);
+}
+
+/// What a lamp gives to a closed room of any model is absorbed by its walls.
+#[test]
+fn walls_of_any_model_absorb_what_a_lamp_emits() {
+    for recipe in [
+        Recipe::EnergyPreservingOrenNayar {
+            reflectance: even(0.6),
+            roughness: Scalar::from(0.8),
+        },
+        metal(Some(rough(0.4, false))),
+    ] {
+        let mut scene = scene(
+            [modelled("wall", recipe)],
+            [room(p(2.0, 3.0, 2.5)).named("room").made_of("wall")],
+            [point_light(p(0.6, 1.0, 1.7), flux(100.0))],
+        );
+        scene
+            .sensors
+            .push(sensor("absorbed", flux_of("room", FluxOf::Absorbed)));
+        let seen = reading(&measured(&scene, &rel_error(1e-2)), "absorbed").estimate;
+        assert_agrees("absorbed", &seen, 100.0, 0.0);
+    }
 }

@@ -8,21 +8,31 @@
 //! | net = incident − leaving | 1 − αρ | −1 |
 //!
 //! On a surface that does not block light, leaving is what arrives from the other side, and net the difference.
+//!
+//! Where reflection depends on the angle, or light goes through, no weight of what arrives tells what leaves: a direction
+//! of density cosθ/π is drawn for the light that leaves, and the model there asked for its radiance. What is a difference
+//! is sampled in parts, each by as many samples, with its sign: absorbed = incident − reflected to this side − transmitted to
+//! the other.
 
 use super::appearance::site_at;
 use super::columns::Place;
+use super::scatter::to_world;
+use super::scattering::Encounter;
 use super::tables::{Lanes4, Model, Side, Tables};
 use crate::geometry::{Direction, Point};
 use crate::material::Site;
-use crate::sampling::hash;
+use crate::sampling::{hash, warp};
 use crate::sensor::FluxOf;
 use crate::shape::{Form, PartId};
 use crate::spectrum::Wavelengths;
 
+/// The parts of a shape, and the number of its first primitive.
+pub(super) type Parts<'a> = (&'a [PartId], u32);
+
 /// A surface whose flux is sampled.
 pub(super) struct FluxMeter<'a> {
     /// Forms with the cumulative share of their sampling area.
-    pub forms: Vec<(&'a Form, Option<&'a [PartId]>, f64)>,
+    pub forms: Vec<(&'a Form, Option<Parts<'a>>, f64)>,
     /// Sum of their sampling areas.
     pub area: f64,
     /// The front is counted.
@@ -30,10 +40,20 @@ pub(super) struct FluxMeter<'a> {
     pub of: FluxOf,
 }
 
+/// What a path looks for at its start.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub(super) enum Looks {
+    /// Light that arrives.
+    Outwards,
+    /// Light that the model there scatters; only what comes through the surface, or only what is reflected, if told.
+    AtModel { through: Option<bool> },
+}
+
 /// How a path starts at a point of a surface.
 pub(super) struct Start {
-    /// It looks at what is in front.
+    /// It looks at what is in front, or at the front.
     pub front: bool,
+    pub looks: Looks,
     /// Of what arrives.
     pub weights: Lanes4,
     /// What all that the path gathers is multiplied with.
@@ -57,13 +77,14 @@ impl FluxMeter<'_> {
         let (form, parts, share) = &self.forms[index];
         let within = ((u[0] - before) / (share - before)).clamp(0.0, 1.0 - f64::EPSILON);
         let sample = form.sample_area([within, u[1]])?;
-        let part = parts.map(|parts| parts[if parts.len() > 1 { sample.face } else { 0 }].0);
+        let part = |ids: &[PartId]| ids[if ids.len() > 1 { sample.face } else { 0 }].0;
         Some(Drawn {
+            part: parts.map(|(ids, _)| part(ids)),
+            primitive: parts.map_or(0, |(_, first)| first + sample.face as u32),
             form,
             face: sample.face,
             point: sample.point,
             normal: sample.normal,
-            part,
         })
     }
 
@@ -77,9 +98,46 @@ impl FluxMeter<'_> {
         };
         Start {
             front,
+            looks: Looks::Outwards,
             weights: [1.0; 4],
             sign,
             emitted: None,
+        }
+    }
+
+    /// On a surface whose model no weight stands for.
+    pub fn on_model(
+        &self,
+        tables: &Tables<'_>,
+        drawn: &Drawn<'_>,
+        part: u32,
+        wavelengths: &Wavelengths,
+        (_, key, index): (u32, u64, u32),
+    ) -> Start {
+        let side = &tables.sides[2 * part as usize + usize::from(!self.front)];
+        let opacity = tables.opacity(side, || drawn.site()).unwrap_or(1.0);
+        let scattered = |through| Looks::AtModel { through };
+        let all = (self.front, scattered(None), opacity, -1.0);
+        let reflected = (self.front, scattered(Some(false)), opacity, -1.0);
+        let transmitted = (!self.front, scattered(Some(true)), opacity, -1.0);
+        let arriving = |weight| (self.front, Looks::Outwards, weight, 1.0);
+        let parts = match self.of {
+            FluxOf::Incident => vec![arriving(1.0)],
+            FluxOf::Leaving => vec![(self.front, scattered(None), opacity, 1.0)],
+            FluxOf::Net => vec![arriving(1.0), all],
+            FluxOf::Absorbed if side.transmits => vec![arriving(opacity), reflected, transmitted],
+            FluxOf::Absorbed => vec![arriving(opacity), reflected],
+        };
+        let chosen = hash::mix_64(key ^ u64::from(index)) % parts.len() as u64;
+        let (front, looks, weight, sign) = parts[chosen as usize];
+        let sign = sign * parts.len() as f64;
+        let emitted = self.emitted(tables, side, drawn, wavelengths);
+        Start {
+            front,
+            looks,
+            weights: [weight; 4],
+            sign,
+            emitted: emitted.map(|lanes| (side.group, lanes.map(|lane| lane / sign as f32))),
         }
     }
 
@@ -101,6 +159,7 @@ impl FluxMeter<'_> {
         let emitted = self.emitted(tables, side, drawn, wavelengths);
         Start {
             front: self.front,
+            looks: Looks::Outwards,
             weights: weights.map(|weight| weight / greatest),
             sign: f64::from(greatest),
             emitted: emitted.map(|radiance| (side.group, radiance.map(|lane| lane / greatest))),
@@ -116,7 +175,7 @@ impl FluxMeter<'_> {
     ) -> Lanes4 {
         let reflectance = match (self.of, side.model) {
             (FluxOf::Incident, _) => return [1.0; 4],
-            (_, Model::Black) => [0.0; 4],
+            (_, Model::Black | Model::Pane | Model::Any) => [0.0; 4],
             _ => tables.lanes_at(&side.reflectance, wavelengths, || drawn.site()),
         };
         let opacity = tables.opacity(side, || drawn.site()).unwrap_or(1.0);
@@ -155,11 +214,32 @@ pub(super) struct Drawn<'a> {
     point: Point,
     normal: Direction,
     pub part: Option<u32>,
+    primitive: u32,
 }
 
 impl Drawn<'_> {
     fn site(&self) -> Site {
         site_at(self.form, self.face, self.point)
+    }
+
+    /// A side of this surface, seen from the direction that two uniform numbers choose with density cosθ/π.
+    pub fn seen(&self, tables: &Tables<'_>, part: u32, start: &Start, u: [f32; 2]) -> Encounter {
+        let place = self.place(tables, start.front);
+        let through = match start.looks {
+            Looks::AtModel { through } => through,
+            Looks::Outwards => None,
+        };
+        Encounter {
+            viewer: to_world(place.normal, warp::cosine_hemisphere(u[0], u[1])),
+            place,
+            side: 2 * part + u32::from(!start.front),
+            primitive: self.primitive,
+            site: self.site(),
+            through,
+            throughput: start.weights,
+            identity: (0, 0, 0),
+            light: [0.0; 2],
+        }
     }
 
     /// The point, facing the front or the back.

@@ -6,12 +6,12 @@ use std::f64::consts::PI;
 use super::MeasureOptions;
 use super::channels;
 use super::columns::{Flight, Workspace};
-use super::flux::FluxMeter;
+use super::flux::{FluxMeter, Looks};
 use super::meters::{Meter, Prepared};
 use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter;
-use super::scattering::Encounter;
+use super::scattering::{self, Encounter};
 use super::tables::{Candidates, Model, Receiver, Tables};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
 use crate::sampling::{block, hash, warp};
@@ -126,9 +126,23 @@ impl<'a> Meters<'a> {
             Mode::Ray => self.tracer.follow(paths, 0, tables.for_surfaces()),
             Mode::Sphere => self.look(paths, tables.for_meters(false, Receiver::Scalar)),
             Mode::Hemisphere { delta } => {
+                let encounters = std::mem::take(&mut paths.encounters);
                 self.look(paths, tables.for_meters(delta, Receiver::Irradiance));
+                self.look_at_models(paths, encounters);
             }
         }
+    }
+
+    /// Follows the paths that look at the surface where they begin.
+    fn look_at_models(&self, paths: &mut Workspace, encounters: Vec<Encounter>) {
+        if encounters.is_empty() || self.tracer.max_depth < 2 {
+            return;
+        }
+        paths.encounters = encounters;
+        paths.flights.clear();
+        scattering::scatter(&self.tracer, paths, 1);
+        self.tracer
+            .follow(paths, 1, self.tracer.tables.for_surfaces());
     }
 
     /// Samples the lights at meters and sends paths out.
@@ -248,18 +262,29 @@ impl<'a> Meters<'a> {
             return;
         };
         let slot = identity.0 as usize;
+        let wavelengths = &workspace.paths.wavelengths[slot];
         let start = match drawn.part {
             None => flux.on_virtual(identity),
-            Some(part) => {
-                let wavelengths = &workspace.paths.wavelengths[slot];
-                flux.on_shape(tables, &drawn, part, wavelengths)
+            Some(part) if tables.is_any(part, flux.front) => {
+                flux.on_model(tables, &drawn, part, wavelengths, identity)
             }
+            Some(part) => flux.on_shape(tables, &drawn, part, wavelengths),
         };
         workspace.sign[slot] = start.sign;
         if let Some((group, radiance)) = start.emitted {
             let gathered = &mut workspace.paths.gathered;
             self.tracer
                 .add(gathered, group, identity.0, |lane| radiance[lane]);
+        }
+        if let (Looks::AtModel { .. }, Some(part)) = (start.looks, drawn.part) {
+            let [a, b, ..] = block::sample(identity.1, identity.2, DIRECTION_BLOCK);
+            let light = [u[2], u[3]];
+            workspace.paths.encounters.push(Encounter {
+                identity,
+                light,
+                ..drawn.seen(tables, part, &start, [a, b])
+            });
+            return;
         }
         workspace.paths.vertices.push(
             drawn.place(tables, start.front),

@@ -324,7 +324,8 @@ impl<'t, 'a> Context<'t, 'a> {
             FluxSurface::Shapes { shapes, front } => {
                 for id in shapes {
                     let placed = self.scene.surfaces().shape(*id);
-                    add(&placed.form, Some(&placed.parts[..]));
+                    let first = self.scene.surfaces().first_primitive(*id);
+                    add(&placed.form, Some((&placed.parts[..], first)));
                     exact::emitted_flux(self.scene, placed, *front, of, &mut exact);
                 }
                 *front

@@ -42,6 +42,8 @@ pub(super) struct Encounter {
     /// From the point back along the path.
     pub viewer: [f32; 3],
     pub site: Site,
+    /// Only light that comes through the surface counts, or only what is reflected, if told.
+    pub through: Option<bool>,
     pub throughput: Lanes4,
     /// Slot, key and index.
     pub identity: (u32, u64, u32),
@@ -58,6 +60,7 @@ impl Encounter {
             primitive: hit.primitive,
             viewer: hit.viewer,
             site,
+            through: None,
             throughput: [1.0; 4],
             identity: (0, 0, 0),
             light: [0.0; 2],
@@ -217,11 +220,13 @@ impl<'a> Surface<'a> {
         })
     }
 
-    /// Whether a direction leads through the surface; `None` where the local axes and the surface disagree.
+    /// Whether a direction leads through the surface; `None` where the local axes and the surface disagree, and where its
+    /// light does not count.
     fn crosses(&self, wi: Direction, direction: Vec3) -> Option<bool> {
         let beyond = direction.dot(Vec3::from_array(self.encounter.place.normal)) < 0.0;
         let through = (wi.z() < 0.0) != (self.wo.z() < 0.0);
-        (beyond == through).then_some(beyond)
+        let counts = self.encounter.through.is_none_or(|only| only == beyond);
+        (beyond == through && counts).then_some(beyond)
     }
 
     /// Where rays start on this side of the surface, or on the other one.

@@ -2,12 +2,16 @@
 //!
 //! A light without extent is found by next-event estimation only, and a polished surface couples single directions only:
 //! the light that such a surface throws from such a light onto other surfaces, and its image there, are not sampled. They
-//! are told, never left out in silence. What a pane lets straight through is not among them: next-event rays pass.
+//! are told, never left out in silence. What a pane lets straight through is not among them, as next-event rays pass, except in the
+//! flux that leaves the pane itself, where no ray is left to pass.
 
 use crate::brdf::Scatter;
 use crate::geometry::{Direction, Vector};
+use crate::light::Light;
 use crate::material::{ColorLanes, Material, MaterialId, Site};
 use crate::scene::Scene;
+use crate::sensor::{FluxOf, FluxSurface, Kind};
+use crate::shape::PartId;
 use crate::spectrum::Wavelengths;
 
 /// One sentence for each class that is missing.
@@ -34,7 +38,32 @@ pub fn unsampled(scene: &Scene) -> Vec<String> {
         };
         polished.iter().map(sentence).collect::<Vec<_>>()
     };
-    lamps().flat_map(|light| of_lamp(&light.name)).collect()
+    let mut classes: Vec<_> = lamps().flat_map(|light| of_lamp(&light.name)).collect();
+    for name in fluxes_of_panes(scene) {
+        let through = |light: &Light| format!("light of `{}` in flux `{name}` of a pane", light.name);
+        classes.extend(lamps().map(through));
+    }
+    classes
+}
+
+/// Sensors that count what leaves a pane.
+fn fluxes_of_panes(scene: &Scene) -> impl Iterator<Item = &str> {
+    let is_pane = |part: &PartId| {
+        let part = scene.parts()[part.0 as usize];
+        [part.front, part.back].map(|id| scene.material(id).is_pane()) != [false; 2]
+    };
+    let concerned = scene.sensors().iter().filter(move |sensor| match &sensor.kind {
+        Kind::Flux {
+            surface: FluxSurface::Shapes { shapes, .. },
+            of,
+            ..
+        } if *of != FluxOf::Incident => {
+            let mut placed = shapes.iter().map(|id| scene.surfaces().shape(*id));
+            placed.any(|shape| shape.parts.iter().any(is_pane))
+        }
+        _ => false,
+    });
+    concerned.map(|sensor| sensor.name.as_str())
 }
 
 /// What a material does to light in single directions, if anything.

@@ -254,6 +254,12 @@ impl<'a> Tables<'a> {
         tint.is_some_and(|tint| !tint.textures.is_empty())
     }
 
+    /// Whether a side of a part is more than a Lambertian reflector or a mirror.
+    pub fn is_any(&self, part: u32, front: bool) -> bool {
+        let side = &self.sides[2 * part as usize + usize::from(!front)];
+        matches!(side.model, Model::Any | Model::Pane)
+    }
+
     /// Emitters for the vertices of a path: one chosen by power among all.
     pub fn for_surfaces(&self) -> Candidates {
         Candidates {
