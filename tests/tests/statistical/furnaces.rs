@@ -221,7 +221,12 @@ fn a_diffuser_divides_its_flux() {
     check(&with(environment(1.0), Side::Front), expected);
     let lamp = || directional(DOWN, 2.0);
     let power = 8.0;
-    let bright = [power, power * reflectance, power * stays, power * (1.0 - reflectance)];
+    let bright = [
+        power,
+        power * reflectance,
+        power * stays,
+        power * (1.0 - reflectance),
+    ];
     check(&with(lamp(), Side::Front), bright);
     let dark = [0.0, power * transmittance, 0.0, -power * transmittance];
     check(&with(lamp(), Side::Back), dark);

@@ -40,7 +40,8 @@ pub fn unsampled(scene: &Scene) -> Vec<String> {
     };
     let mut classes: Vec<_> = lamps().flat_map(|light| of_lamp(&light.name)).collect();
     for name in fluxes_of_panes(scene) {
-        let through = |light: &Light| format!("light of `{}` in flux `{name}` of a pane", light.name);
+        let through =
+            |light: &Light| format!("light of `{}` in flux `{name}` of a pane", light.name);
         classes.extend(lamps().map(through));
     }
     classes
@@ -52,17 +53,20 @@ fn fluxes_of_panes(scene: &Scene) -> impl Iterator<Item = &str> {
         let part = scene.parts()[part.0 as usize];
         [part.front, part.back].map(|id| scene.material(id).is_pane()) != [false; 2]
     };
-    let concerned = scene.sensors().iter().filter(move |sensor| match &sensor.kind {
-        Kind::Flux {
-            surface: FluxSurface::Shapes { shapes, .. },
-            of,
-            ..
-        } if *of != FluxOf::Incident => {
-            let mut placed = shapes.iter().map(|id| scene.surfaces().shape(*id));
-            placed.any(|shape| shape.parts.iter().any(is_pane))
-        }
-        _ => false,
-    });
+    let concerned = scene
+        .sensors()
+        .iter()
+        .filter(move |sensor| match &sensor.kind {
+            Kind::Flux {
+                surface: FluxSurface::Shapes { shapes, .. },
+                of,
+                ..
+            } if *of != FluxOf::Incident => {
+                let mut placed = shapes.iter().map(|id| scene.surfaces().shape(*id));
+                placed.any(|shape| shape.parts.iter().any(is_pane))
+            }
+            _ => false,
+        });
     concerned.map(|sensor| sensor.name.as_str())
 }
 
