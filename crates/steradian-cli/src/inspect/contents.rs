@@ -2,8 +2,8 @@
 
 use steradian::geometry::Bounds;
 use steradian::light::{Kind as LightKind, Light};
-use steradian::material::{Material, MaterialId, Opacity, Tint};
-use steradian::quantity::{Area, Flux};
+use steradian::material::{Material, MaterialId, Model, Opacity, Tint};
+use steradian::quantity::{Area, Flux, Spectrum};
 use steradian::scene::{PartProperties, Scene};
 use steradian::sensor::{Kind as SensorKind, Sensor, SitsOn};
 use steradian::shape::{Form, Placed, ShapeId};
@@ -137,13 +137,14 @@ pub fn materials(scene: &Scene) -> Columns {
     };
     let mut columns = Columns::new(["material".to_owned(), heading, "lets pass".to_owned()]);
     for material in listed_materials(scene) {
-        let kind = if material.is_mirror { " (mirror)" } else { "" };
-        let values = material.reflectance.iter();
-        let values: Vec<String> = values
-            .map(|value| significant(f64::from(*value), DIGITS))
-            .collect();
+        let kind = match &material.transmittance {
+            Some(lanes) => format!(" (transmits {})", listed_lanes(lanes)),
+            None if material.is_mirror => " (mirror)".to_owned(),
+            None => String::new(),
+        };
+        let values = listed_lanes(&material.reflectance);
         let varies = material.varies.map(|how| format!(" x {how}"));
-        let reflectance = format!("{}{}{kind}", values.join(", "), varies.unwrap_or_default());
+        let reflectance = format!("{values}{}{kind}", varies.unwrap_or_default());
         columns.row([
             material.name,
             reflectance,
@@ -153,12 +154,22 @@ pub fn materials(scene: &Scene) -> Columns {
     columns
 }
 
+fn listed_lanes(lanes: &[f32]) -> String {
+    let lanes = lanes.iter();
+    let lanes: Vec<String> = lanes
+        .map(|value| significant(f64::from(*value), DIGITS))
+        .collect();
+    lanes.join(", ")
+}
+
 /// A material of the lists.
 pub struct ListedMaterial {
     /// Its name.
     pub name: String,
     /// Of each lane, or of all wavelengths; a factor of what varies.
     pub reflectance: Vec<f32>,
+    /// The same of what goes through, if anything does.
+    pub transmittance: Option<Vec<f32>>,
     /// What the reflectance is multiplied with.
     pub varies: Option<String>,
     /// What part of the light passes undeviated, if any.
@@ -180,20 +191,42 @@ pub fn listed_materials(scene: &Scene) -> Vec<ListedMaterial> {
         false => scene.lanes().count(),
     };
     let material = |(id, (_, material)): (MaterialId, &(String, Material))| {
-        let tint = material.reflectance();
+        let [reflected, transmitted] = shares(material);
         ListedMaterial {
             name: material_name(scene, id),
-            reflectance: tint.map_or([0.0; 4], |tint| tint.hue.lanes)[..lanes].to_vec(),
-            varies: tint.and_then(|tint| varies(scene, tint)),
+            reflectance: reflected[..lanes].to_vec(),
+            transmittance: material.transmits().then(|| transmitted[..lanes].to_vec()),
+            varies: varies(scene, material),
             lets_pass: material.opacity.as_ref().map(lets_pass),
-            is_mirror: material.is_specular(),
+            is_mirror: matches!(material.model, Model::Mirror { .. }),
         }
     };
     listed.map(material).collect()
 }
 
-/// What a tint varies with.
-fn varies(scene: &Scene, tint: &Tint) -> Option<String> {
+/// Hemispherical reflectance and transmittance, where the factors stand for what varies.
+fn shares(material: &Material) -> [[f32; 4]; 2] {
+    match &material.model {
+        Model::Recipe(recipe) => recipe.hemispherical().map(Spectrum::to_lanes),
+        _ => {
+            let tint = material.reflectance();
+            [tint.map_or([0.0; 4], |tint| tint.hue.lanes), [0.0; 4]]
+        }
+    }
+}
+
+/// What the model varies with.
+fn varies(scene: &Scene, material: &Material) -> Option<String> {
+    match &material.model {
+        Model::Recipe(recipe) if recipe.constant().is_none() => {
+            Some("what varies by place, at the shortest wavelength".into())
+        }
+        Model::Recipe(_) => None,
+        _ => varies_by(scene, material.reflectance()?),
+    }
+}
+
+fn varies_by(scene: &Scene, tint: &Tint) -> Option<String> {
     let curve = tint.hue.curve.map(|id| {
         let curve = scene.curve(id);
         let [low, high] = [curve.min(), curve.max()].map(|value| significant(value, DIGITS));

@@ -70,6 +70,7 @@ fn materials(scene: &Scene) -> Vec<Value> {
         json!({
             "name": material.name,
             "reflectance": material.reflectance,
+            "transmittance": material.transmittance,
             "varies": material.varies,
             "lets_pass": material.lets_pass,
             "mirror": material.is_mirror,

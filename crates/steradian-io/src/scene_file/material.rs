@@ -7,6 +7,8 @@ use steradian::scene::description::{
 };
 use toml::de::DeValue;
 
+use crate::import::bsdf;
+
 use super::fields::Fields;
 use super::keys::Value;
 use super::node::Node;
@@ -80,8 +82,22 @@ fn recipe(kind: &str, fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>> {
                 transmittance: transmittance?,
             })
         }
+        "measured" => measured(fields),
         _ => interface(kind, fields),
     }
+}
+
+fn measured(fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>> {
+    let name: String = fields.get("file")?;
+    let context = fields.context();
+    let refuse = |message: String| context.error(fields.span_of("file"), message, None);
+    let file = bsdf::read(&context.path_of(&name), context.files())
+        .map_err(|error| refuse(format!("{name}: {error}")))
+        .ok()?;
+    for warning in &file.warnings {
+        context.warn(format!("{name}: {warning}"));
+    }
+    file.model().cloned().map(Recipe::Measured)
 }
 
 /// Models of what light meets where two media touch.

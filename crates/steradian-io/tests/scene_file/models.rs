@@ -1,6 +1,7 @@
 //! Models of materials: what each key becomes, what is wrong with one, and single settings.
 
 use steradian::brdf::Brdf;
+use steradian::geometry::Direction;
 use steradian::scene::Scene;
 use steradian::scene::description::*;
 use steradian::spectrum::Lanes;
@@ -112,6 +113,19 @@ fn glass() {
         transmittance: grey(0.9),
     };
     assert_eq!(recipe("window"), window);
+}
+
+#[test]
+fn measured_surfaces_come_from_their_file() {
+    let Recipe::Measured(table) = recipe("blind") else {
+        panic!("no table")
+    };
+    assert!(table.transmittance(Direction::Z).mean() > 0.0);
+    let wrong = complaint("model = \"measured\"\nfile = \"parts/triangle.obj\"");
+    assert!(
+        wrong.contains("scene.toml:5:8") && wrong.contains("parts/triangle.obj:"),
+        "{wrong}"
+    );
 }
 
 /// What is wrong with a material, as the command line shows it.

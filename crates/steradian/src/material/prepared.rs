@@ -2,10 +2,16 @@
 
 use std::borrow::Cow;
 use std::convert::Infallible;
+use std::f64::consts::TAU;
 
 use super::{ColorLanes, Recipe, Role, Scalar, Site, Tint, Turn};
 use crate::brdf::Brdf;
+use crate::geometry::{Direction, gauss};
+use crate::quantity::Spectrum;
 use crate::spectrum::Wavelengths;
+
+/// Azimuths of a hemispherical mean.
+const AZIMUTHS: u32 = 8;
 
 /// A recipe whose parameters have been checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +52,24 @@ impl PreparedRecipe {
             wavelengths,
         });
         values.brdf(Some(&self.base)).ok().map(Cow::Owned)
+    }
+
+    /// Of light that comes evenly from the whole hemisphere outside, the shares that are reflected and transmitted,
+    /// where the factors stand for what varies: (1/π) ∫ (albedo, transmittance) cosθ dω, by Gauss's rule in cos²θ at
+    /// eight azimuths.
+    pub fn hemispherical(&self) -> [Spectrum; 2] {
+        let mut shares = [Spectrum::ZERO; 2];
+        for &(node, weight) in gauss::rule(16) {
+            let square = 0.5 * (1.0 + node);
+            let part = (0.5 * weight / f64::from(AZIMUTHS)) as f32;
+            for k in 0..AZIMUTHS {
+                let phi = TAU * (f64::from(k) + 0.5) / f64::from(AZIMUTHS);
+                let wo = Direction::from_polar((1.0 - square).sqrt(), square.sqrt(), phi);
+                shares[0] += self.base.albedo(wo) * part;
+                shares[1] += self.base.transmittance(wo) * part;
+            }
+        }
+        shares
     }
 
     /// The model where nothing varies.
@@ -93,5 +117,53 @@ impl Turn<'_, Tint, Scalar> for AtPoint<'_> {
 
     fn number(&mut self, _: &'static str, number: &Scalar) -> Result<f64, Infallible> {
         Ok(number.at(self.site))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Hue;
+
+    #[test]
+    fn evenly_lit_glass_reflects_its_average() {
+        let recipe = Recipe::Dielectric {
+            ior: 1.5,
+            exterior_ior: 1.0,
+            roughness: None,
+        };
+        let values = Recipe::Dielectric {
+            ior: 1.5,
+            exterior_ior: 1.0,
+            roughness: None,
+        };
+        let glass = PreparedRecipe::new(recipe, values.brdf(None).unwrap());
+        let [reflected, transmitted] = glass.hemispherical().map(|share| share.mean());
+        // Walsh's formula: .091777 for an index of 1.5.
+        assert!((reflected - 0.091_777).abs() < 2e-5, "{reflected}");
+        assert!((reflected + transmitted - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn evenly_lit_paper_reflects_its_reflectance() {
+        let tint = |lane| Tint {
+            hue: Hue {
+                lanes: [lane; 4],
+                curve: None,
+            },
+            textures: vec![],
+        };
+        let recipe = Recipe::DiffuseTransmission {
+            reflectance: tint(0.5),
+            transmittance: tint(0.25),
+        };
+        let values = Recipe::DiffuseTransmission {
+            reflectance: [0.5; 4],
+            transmittance: [0.25; 4],
+        };
+        let paper = PreparedRecipe::new(recipe, values.brdf(None).unwrap());
+        let shares = paper.hemispherical().map(|share| share.mean());
+        assert!((shares[0] - 0.5).abs() < 1e-6 && (shares[1] - 0.25).abs() < 1e-6);
+        assert!(paper.constant().is_some());
     }
 }

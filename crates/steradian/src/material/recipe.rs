@@ -9,9 +9,9 @@
 use std::convert::Infallible;
 
 use crate::brdf::{
-    Brdf, ComplexIndex, DiffuseTransmission, EnergyPreservingOrenNayar, Facets, Lambertian, Mirror,
-    ModelError, OrenNayar, Pane, Phong, RoughConductor, RoughDielectric, Slopes, SmoothConductor,
-    SmoothDielectric,
+    Brdf, ComplexIndex, DiffuseTransmission, EnergyPreservingOrenNayar, Facets, Lambertian,
+    Measured, Mirror, ModelError, OrenNayar, Pane, Phong, RoughConductor, RoughDielectric, Slopes,
+    SmoothConductor, SmoothDielectric,
 };
 use crate::quantity::Spectrum;
 
@@ -83,6 +83,8 @@ pub enum Recipe<L, N> {
         /// Internal transmittance along the normal.
         transmittance: L,
     },
+    /// A measured surface.
+    Measured(Measured),
 }
 
 /// How rough an interface is.
@@ -233,6 +235,7 @@ impl<L, N> Recipe<L, N> {
                 ior: *ior,
                 transmittance: with.lanes("transmittance", Share, transmittance)?,
             },
+            Self::Measured(table) => Recipe::Measured(table.clone()),
         })
     }
 
@@ -259,7 +262,10 @@ impl<L, N> Recipe<L, N> {
     pub const fn transmits(&self) -> bool {
         matches!(
             self,
-            Self::DiffuseTransmission { .. } | Self::Dielectric { .. } | Self::Pane { .. }
+            Self::DiffuseTransmission { .. }
+                | Self::Dielectric { .. }
+                | Self::Pane { .. }
+                | Self::Measured(_)
         )
     }
 
@@ -309,6 +315,7 @@ impl Recipe<[f64; 4], f64> {
     /// If a parameter lies outside its range.
     pub fn brdf(&self, alike: Option<&Brdf>) -> Result<Brdf, ModelError> {
         Ok(match *self {
+            Self::Measured(ref table) => Brdf::Measured(table.clone()),
             Self::Lambertian { reflectance } => Brdf::Lambertian(Lambertian {
                 reflectance: single(reflectance),
             }),

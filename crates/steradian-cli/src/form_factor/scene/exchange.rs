@@ -47,7 +47,7 @@ pub fn surfaces(
         let emissivity = line.emissivity.or_else(|| emissivity(facets, facet?));
         let missing = || {
             format!(
-                "`{name}` has no emissivity: its reflectance varies; give a column `emissivity`"
+                "`{name}` has no emissivity: its reflectance varies, or depends on the direction; give a column `emissivity`"
             )
         };
         match emissivity {

@@ -228,6 +228,18 @@ pub const MATERIALS: Family = Family {
                 OPACITY_KEY,
             ],
         ),
+        Kind::new(
+            "measured",
+            "A measured surface, the same in all lanes",
+            &[
+                Key::required(
+                    "file",
+                    Value::File,
+                    "A table of LBNL (BSDF XML: Klems matrices and tensor trees), its visible values; the normal points inside the building",
+                ),
+                OPACITY_KEY,
+            ],
+        ),
         Kind::not_yet("glass"),
         Kind::not_yet("plastic"),
         Kind::not_yet("ward"),
