@@ -261,6 +261,10 @@ impl<T: Read> Read for Vec<T> {
             .into_iter()
             .collect()
     }
+
+    fn fits(row: &Value) -> bool {
+        matches!(row, Value::List(inner) if T::fits(inner))
+    }
 }
 
 impl<T: Read> Read for OneOrMany<T> {

@@ -4,27 +4,27 @@ use std::path::Path;
 
 use steradian_io::scene_file::{key_help, schema};
 
-fn committed(name: &str) -> String {
+/// Compares with the committed file, or replaces it if `STERADIAN_BLESS` is set.
+fn assert_committed(name: &str, found: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../scenes")
         .join(name);
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    if std::env::var_os("STERADIAN_BLESS").is_some() {
+        std::fs::write(&path, found).unwrap();
+    }
+    let committed = std::fs::read_to_string(&path);
+    let committed = committed.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    assert!(committed == found, "run `cargo xtask schema`");
 }
 
 #[test]
 fn the_schema_is_up_to_date() {
-    assert!(
-        committed("steradian.schema.json") == format!("{:#}\n", schema()),
-        "run `cargo xtask schema`"
-    );
+    assert_committed("steradian.schema.json", &format!("{:#}\n", schema()));
 }
 
 #[test]
 fn the_list_of_keys_is_up_to_date() {
-    assert!(
-        committed("KEYS.txt") == key_help(),
-        "run `cargo xtask schema`"
-    );
+    assert_committed("KEYS.txt", &key_help());
 }
 
 #[test]

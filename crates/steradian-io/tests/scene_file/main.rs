@@ -22,8 +22,8 @@ const TRIANGLE: &str = "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nf 1 2 3\n";
 /// A picture of one texel, (128 + ½)/256 in all channels.
 const HALF: &[u8] = b"#?RADIANCE\n\n-Y 1 +X 1\n\x80\x80\x80\x80";
 
-/// A matrix of Klems patches.
-const KLEMS: &str = include_str!("../data/bsdf/klems_small_comma.xml");
+/// A measured surface.
+const MEASURED: &str = include_str!("../data/bsdf/radiance_testBSDF.xml");
 
 /// The spectrum of a lamp.
 const LAMP: &str = "nm,new,old\n400,0.1,0\n700,0.9,0.8\n";
@@ -32,7 +32,7 @@ fn files() -> MemoryFiles {
     MemoryFiles::default()
         .with("parts/triangle.obj", TRIANGLE)
         .with("parts/half.hdr", HALF)
-        .with("parts/klems.xml", KLEMS)
+        .with("parts/blind.xml", MEASURED)
         .with("parts/lamp.csv", LAMP)
         .with("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n")
 }

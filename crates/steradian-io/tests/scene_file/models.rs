@@ -116,11 +116,53 @@ fn glass() {
 }
 
 #[test]
+fn coats_and_gloss() {
+    let plastic = |roughness| Recipe::Plastic {
+        ior: 1.5,
+        diffuse: grey(0.5),
+        roughness,
+    };
+    assert_eq!(recipe("varnish"), plastic(None));
+    let rough = |alpha| Roughness {
+        slopes: Slopes::Ggx,
+        alpha,
+        multiple_scattering: true,
+    };
+    assert_eq!(recipe("eggshell"), plastic(Some(rough([0.25, 0.5]))));
+    assert_eq!(recipe("satin"), plastic(Some(rough([0.25; 2]))));
+    let lacquer = Recipe::Ward {
+        diffuse: grey(0.5),
+        specular: grey(0.25),
+        alpha: [0.125, 0.25],
+    };
+    assert_eq!(recipe("lacquer"), lacquer);
+    let old = |kind, specularity: f64| Recipe::Radiance {
+        kind,
+        color: grey(0.5),
+        specularity: specularity.into(),
+        roughness: 0.125.into(),
+    };
+    let trans = RadianceKind::Trans {
+        transmissivity: 0.5,
+        transmitted_specularity: 0.25,
+    };
+    assert_eq!(recipe("old-plastic"), old(RadianceKind::Plastic, 0.0625));
+    assert_eq!(recipe("old-metal"), old(RadianceKind::Metal, 0.75));
+    assert_eq!(recipe("old-trans"), old(trans, 0.0625));
+    let mixed = MaterialModel::Mixture {
+        of: vec!["plaster".into(), "silver".into()],
+        weights: vec![0.25, 0.75],
+    };
+    assert_eq!(material("mixed").model, mixed);
+}
+
+#[test]
 fn measured_surfaces_come_from_their_file() {
     let Recipe::Measured(table) = recipe("blind") else {
         panic!("no table")
     };
-    assert!(table.transmittance(Direction::Z).mean() > 0.0);
+    let both = [Direction::Z, -Direction::Z].map(|wo| table.albedo(wo) + table.transmittance(wo));
+    assert!(both.iter().any(|share| share.mean() > 0.0));
     let wrong = complaint("model = \"measured\"\nfile = \"parts/triangle.obj\"");
     assert!(
         wrong.contains("scene.toml:5:8") && wrong.contains("parts/triangle.obj:"),
@@ -213,6 +255,26 @@ fn what_is_wrong_is_told_at_its_line() {
             "model = \"dielectric\"\nior = 1.5\nabsorption = 3",
             "scene.toml:6:14",
             "expected an absorption such as \"3 1/m\"",
+        ),
+        (
+            "model = \"radiance-metal\"\ncolor = 0.5\nroughness = 2",
+            "scene.toml:6:13",
+            "roughness must lie between",
+        ),
+        (
+            "model = \"radiance-plastic\"\ncolor = 1\nspecularity = 1.5",
+            "scene.toml:6:15",
+            "specularity must lie between 0 and 1",
+        ),
+        (
+            "model = \"ward\"\ndiffuse = 0.5\nspecular = 0.75\nalpha = 0.25",
+            "scene.toml:5:11",
+            "add up to 1.25",
+        ),
+        (
+            "model = \"mixture\"\nof = [\"b\"]\nweights = [1]",
+            "scene.toml:5:6",
+            "there is no material `b`",
         ),
         (
             "model = \"pane\"\nior = 1.5\ntransmitance = 0.5",

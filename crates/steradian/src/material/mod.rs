@@ -10,7 +10,7 @@ mod texture;
 pub use bitmap::{Bitmap, BitmapError, Interpolation, Texels, Wrap, linear_from_srgb};
 pub use media::Media;
 pub use prepared::PreparedRecipe;
-pub use recipe::{Recipe, Role, Roughness, Turn, Turned};
+pub use recipe::{RadianceKind, Recipe, Role, Roughness, Turn, Turned};
 pub use scalar::{Picture, Scalar};
 pub use texture::{ColorLanes, Hue, Pattern, Site, Texture, Tint};
 

@@ -55,16 +55,16 @@ impl PreparedRecipe {
     }
 
     /// Of light that comes evenly from the whole hemisphere outside, the shares that are reflected and transmitted,
-    /// where the factors stand for what varies: (1/π) ∫ (albedo, transmittance) cosθ dω, by Gauss's rule in cos²θ at
+    /// where the factors stand for what varies: (1/π) ∫ (albedo, transmittance) cosθ dω, by Gauss's rule in cosθ at
     /// eight azimuths.
     pub fn hemispherical(&self) -> [Spectrum; 2] {
         let mut shares = [Spectrum::ZERO; 2];
         for &(node, weight) in gauss::rule(16) {
-            let square = 0.5 * (1.0 + node);
-            let part = (0.5 * weight / f64::from(AZIMUTHS)) as f32;
+            let cos = 0.5 * (1.0 + node);
+            let part = (weight * cos / f64::from(AZIMUTHS)) as f32;
             for k in 0..AZIMUTHS {
                 let phi = TAU * (f64::from(k) + 0.5) / f64::from(AZIMUTHS);
-                let wo = Direction::from_polar((1.0 - square).sqrt(), square.sqrt(), phi);
+                let wo = Direction::from_polar((1.0 - cos * cos).sqrt(), cos, phi);
                 shares[0] += self.base.albedo(wo) * part;
                 shares[1] += self.base.transmittance(wo) * part;
             }
@@ -83,12 +83,12 @@ impl PreparedRecipe {
     }
 
     /// Whether single directions are all that it couples.
-    pub const fn is_specular(&self) -> bool {
+    pub fn is_specular(&self) -> bool {
         self.recipe.is_specular()
     }
 
     /// Whether light goes through.
-    pub const fn transmits(&self) -> bool {
+    pub fn transmits(&self) -> bool {
         self.recipe.transmits()
     }
 

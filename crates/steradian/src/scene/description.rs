@@ -9,7 +9,7 @@ pub use super::appearance::{Opacity, Pattern, Placement, Texture, Varying};
 pub use crate::brdf::Slopes;
 use crate::geometry::{Point, Transform, Vector};
 pub use crate::material::{
-    Bitmap, Interpolation, Media, Picture, Recipe, Roughness, Scalar, Texels, Wrap,
+    Bitmap, Interpolation, Media, Picture, RadianceKind, Recipe, Roughness, Scalar, Texels, Wrap,
 };
 use crate::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
@@ -111,6 +111,13 @@ pub enum MaterialModel {
         front: String,
         /// Material of the back side.
         back: String,
+    },
+    /// Other materials side by side, too finely to be seen apart.
+    Mixture {
+        /// Their names: materials of one model each.
+        of: Vec<String>,
+        /// Their shares of the area; what is left is black.
+        weights: Vec<f64>,
     },
     /// Any other model.
     Recipe(Recipe<Varying, Scalar>),

@@ -23,7 +23,7 @@ impl LoneMaterial {
     pub fn new(description: &MaterialDescription, lanes: &Lanes) -> Result<Self, Problem> {
         let mut curves = Curves::default();
         let part = Part::Material(0);
-        let material = materials::one_sided(description, lanes, &mut curves)
+        let material = materials::one_sided(description, &[], lanes, &mut curves)
             .map_err(|(key, message)| Problem::at(part, key, message))?
             .ok_or_else(|| Problem::at(part, "model", "this material only names others"))?;
         Ok(Self {

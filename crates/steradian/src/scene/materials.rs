@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::curves::Curves;
 use super::description::{self, LaneValues, MaterialDescription, MaterialModel, Varying};
-use super::{Fault, Part, Problem, recipes};
+use super::{Fault, Part, Problem, mixtures, recipes};
 use crate::material::{
     Bitmap, Hue, Material, MaterialId, Model, Opacity, Pattern, Texels, Texture, Tint,
 };
@@ -60,7 +60,7 @@ pub(super) fn prepare(
             let message = format!("material `{name}` is defined twice");
             problems.push(Problem::of(part, message));
         }
-        match one_sided(description, lanes, curves) {
+        match one_sided(description, descriptions, lanes, curves) {
             Ok(Some(material)) => {
                 let id = MaterialId(prepared.materials.len() as u32);
                 prepared.materials.push((name.clone(), material));
@@ -80,6 +80,7 @@ pub(super) fn prepare(
 /// `None` for a material that names another one for each side.
 pub(super) fn one_sided(
     description: &MaterialDescription,
+    all: &[MaterialDescription],
     lanes: &Lanes,
     curves: &mut Curves,
 ) -> Result<Option<Material>, Fault> {
@@ -93,6 +94,10 @@ pub(super) fn one_sided(
         },
         MaterialModel::Recipe(recipe) => {
             Model::Recipe(Arc::new(recipes::prepare(recipe, lanes, curves)?))
+        }
+        MaterialModel::Mixture { of, weights } => {
+            let recipe = mixtures::recipe(of, weights, all)?;
+            Model::Recipe(Arc::new(recipes::prepare(&recipe, lanes, curves)?))
         }
         MaterialModel::TwoSided { .. } if description.opacity.is_some() => {
             let message = "a material of two sides takes the opacity of each: state it there";

@@ -11,6 +11,7 @@ mod geometry;
 mod lights;
 mod lone_material;
 mod materials;
+mod mixtures;
 mod problem;
 mod receivers;
 mod recipes;
@@ -244,13 +245,14 @@ impl Scene {
     }
 }
 
-/// Whether no light passes a surface of this material.
+/// Whether no light passes a surface of this material, those of its parts apart.
 fn stops_light(material: &MaterialDescription) -> bool {
     material.opacity.is_none()
         && match &material.model {
             MaterialModel::Recipe(recipe) => !recipe.transmits(),
             MaterialModel::Lambertian { .. }
             | MaterialModel::Mirror { .. }
+            | MaterialModel::Mixture { .. }
             | MaterialModel::TwoSided { .. } => true,
         }
 }

@@ -14,7 +14,7 @@ use crate::spectrum::Lanes;
 const STEP: f64 = 5.0;
 
 /// A recipe as an author states it.
-type Stated = Recipe<Varying, Scalar>;
+pub(super) type Stated = Recipe<Varying, Scalar>;
 
 pub(super) fn prepare(
     stated: &Stated,

@@ -47,7 +47,7 @@ fn factors(model: &MaterialModel) -> Vec<&LaneValues> {
             .into_iter()
             .map(|lanes| &lanes.factor)
             .collect(),
-        MaterialModel::TwoSided { .. } => vec![],
+        MaterialModel::TwoSided { .. } | MaterialModel::Mixture { .. } => vec![],
     }
 }
 
