@@ -9,11 +9,11 @@ fn assert_committed(name: &str, found: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../scenes")
         .join(name);
+    let fail = |error: std::io::Error| panic!("{}: {error}", path.display());
     if std::env::var_os("STERADIAN_BLESS").is_some() {
-        std::fs::write(&path, found).unwrap();
+        std::fs::write(&path, found).unwrap_or_else(fail);
     }
-    let committed = std::fs::read_to_string(&path);
-    let committed = committed.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let committed = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{error}"));
     assert!(committed == found, "run `cargo xtask schema`");
 }
 

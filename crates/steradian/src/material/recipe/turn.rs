@@ -166,7 +166,10 @@ impl<L, N> Recipe<L, N> {
                 roughness: with.number("roughness", roughness)?,
             },
             Self::Mixture { parts, weights } => Recipe::Mixture {
-                parts: turned_parts(parts, with)?,
+                parts: parts
+                    .iter()
+                    .map(|part| part.turn(with))
+                    .collect::<Result<_, _>>()?,
                 weights: weights.clone(),
             },
         })
@@ -190,12 +193,4 @@ impl<L, N> Recipe<L, N> {
         let Ok(_) = self.turn(&mut gathered);
         gathered
     }
-}
-
-/// The recipes of a mixture, each turned.
-fn turned_parts<'a, T: Turn<'a, L, N>, L, N>(
-    parts: &'a [Recipe<L, N>],
-    with: &mut T,
-) -> Result<Vec<Recipe<T::Lanes, T::Number>>, T::Error> {
-    parts.iter().map(|part| part.turn(with)).collect()
 }
