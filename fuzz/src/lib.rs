@@ -5,6 +5,8 @@
 
 use std::path::Path;
 
+use steradian::brdf::Scatter;
+use steradian::geometry::{Direction, Vector};
 use steradian::measurement::Measurements;
 use steradian::scene::description::{GeometryDescription, MeshData, SceneDescription};
 use steradian::spectrum::Beyond;
@@ -12,7 +14,7 @@ use steradian::transport::Picture;
 use steradian_io::diagnostic::render;
 use steradian_io::files::MemoryFiles;
 use steradian_io::import::image::Encoding;
-use steradian_io::import::{MeshFile, gltf, image, obj, ply, points, series, spectrum, stl};
+use steradian_io::import::{MeshFile, bsdf, gltf, image, obj, ply, points, series, spectrum, stl};
 use steradian_io::report::Shard;
 use steradian_io::scene_file::read_scene_str;
 
@@ -20,7 +22,7 @@ use steradian_io::scene_file::read_scene_str;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target.
-pub const TARGETS: [Target; 12] = [
+pub const TARGETS: [Target; 15] = [
     ("scene_file", scene_file),
     ("obj", obj),
     ("mtl", mtl),
@@ -30,6 +32,9 @@ pub const TARGETS: [Target; 12] = [
     ("glb", glb),
     ("image", image),
     ("spectrum_csv", spectrum_csv),
+    ("bsdf_xml", bsdf_xml),
+    ("merl", merl),
+    ("rgl", rgl),
     ("points", points),
     ("series", series),
     ("shard", shard),
@@ -119,6 +124,53 @@ pub fn spectrum_csv(bytes: &[u8]) {
     for column in [None, Some("white")] {
         if let Ok(curve) = spectrum::read(bytes, column, Beyond::Held) {
             assert!(curve.at(550.0).is_finite());
+        }
+    }
+}
+
+/// BSDF XML of LBNL.
+pub fn bsdf_xml(bytes: &[u8]) {
+    match bsdf::xml::read(bytes) {
+        Ok(file) => assert_scatters(&file),
+        Err(error) => assert!(error.to_string().starts_with("line ")),
+    }
+}
+
+/// Tables of MERL; a whole one has 35 MB, so that headers are read, not values.
+pub fn merl(bytes: &[u8]) {
+    match bsdf::merl::read(bytes) {
+        Ok(file) => assert_scatters(&file),
+        Err(error) => assert!(error.to_string().starts_with("byte ")),
+    }
+}
+
+/// Tensor files of RGL.
+pub fn rgl(bytes: &[u8]) {
+    match bsdf::rgl::read(bytes) {
+        Ok(file) => assert_scatters(&file),
+        Err(error) => assert!(error.to_string().starts_with("byte ")),
+    }
+}
+
+/// Values and densities are not negative, and samples tell their own.
+fn assert_scatters(file: &bsdf::MeasuredFile) {
+    let upwards = Direction::new(Vector::new(0.3, -0.4, 0.8)).unwrap_or(Direction::Z);
+    for band in &file.bands {
+        for wo in [upwards, -upwards] {
+            assert!(
+                band.model
+                    .evaluate(wo, upwards)
+                    .to_lanes()
+                    .iter()
+                    .all(|value| *value >= 0.0)
+            );
+            if let Some(scatter) = band.model.sample(wo, [0.3, 0.7]) {
+                let density = band.model.pdf(wo, scatter.wi());
+                assert!(
+                    density > 0.0
+                        && matches!(scatter, Scatter::Finite { pdf, .. } if pdf == density)
+                );
+            }
         }
     }
 }

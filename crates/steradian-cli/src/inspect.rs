@@ -1,8 +1,9 @@
-//! `steradian inspect`: what a scene or mesh holds, with its totals, and what is wrong with it, before anything is simulated.
+//! `steradian inspect`: what a scene, mesh or measured surface holds, with its totals, and what is wrong with it, before anything is simulated.
 
 mod contents;
 mod findings;
 mod json;
+mod measured;
 mod triangles;
 
 use std::path::PathBuf;
@@ -11,6 +12,7 @@ use clap::Args;
 use steradian::quantity::Length;
 use steradian::scene::Scene;
 use steradian::transport::unsampled;
+use steradian_io::import::bsdf::is_measured;
 
 use crate::load::Loaded;
 use crate::status::{Failure, Outcome};
@@ -22,7 +24,7 @@ use contents::plural;
 use findings::Finding;
 use triangles::Triangles;
 
-/// What a scene or mesh holds: shapes with areas, materials, lights with their flux, sensors, and what is wrong
+/// What a scene, mesh or measured surface holds: shapes with areas, materials, lights with their flux, sensors, and what is wrong
 ///
 /// Nothing is simulated. All triangles of the scene together are examined as one surface, in which vertices at the same place
 /// are one. Told are edges that one triangle alone has, as light leaks there (not those of sheets, which lie in a plane and
@@ -30,10 +32,14 @@ use triangles::Triangles;
 /// there twice; and triangles without area. A light is told to be unseen only if a closed opaque shape has it on one side
 /// and all sensors on the other; other lights may be hidden, too. Light that no estimator can follow, such as that of a
 /// point lamp seen in a mirror, is listed as not sampled.
+///
+/// Of a measured surface: header, blocks, the shares of the light that it reflects and transmits (means over the azimuths, and the
+/// largest sum), by how much it is not reciprocal, and what was mended or passed over. Above is the side of the normal, the
+/// interior; WINDOW calls light from there "Back".
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
-    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL)
+    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL; BSDF XML, MERL .binary, RGL .bsdf)
     scene: PathBuf,
     /// How to print
     #[arg(long, value_enum, default_value_t)]
@@ -50,7 +56,8 @@ const EXAMPLES: &str = "\
 Examples:
   steradian inspect scenes/cornell-box.toml
   steradian inspect model.obj --weld 0.1mm --strict
-  steradian inspect scenes/lamps-equal.toml --format json";
+  steradian inspect scenes/lamps-equal.toml --format json
+  steradian inspect blinds.xml --strict";
 
 /// What is known of a scene beyond the scene itself.
 struct Inspection<'a> {
@@ -66,6 +73,9 @@ struct Inspection<'a> {
 
 /// Prints the lists.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    if is_measured(&arguments.scene) {
+        return measured::run(&arguments.scene, arguments.format, arguments.strict);
+    }
     let loaded = load::scene(&arguments.scene)?;
     let inspection = Inspection::new(&loaded, arguments.weld);
     output::print(&match arguments.format {

@@ -154,3 +154,39 @@ fn rectangles_that_meet_are_one_surface() {
         (&4.into(), &4.into())
     );
 }
+
+fn measured(name: &str) -> String {
+    let data = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = data
+        .join("../crates/steradian-io/tests/data/bsdf")
+        .join(name);
+    path.display().to_string()
+}
+
+/// checkBSDF of Radiance: at most 8751.1 % of the light is reflected, for the values of the file are not those of a surface.
+#[test]
+fn a_measured_surface_is_told_with_its_totals_and_what_is_wrong() {
+    let object = json(&measured("radiance_testBSDF.xml"));
+    assert_eq!(object["schema"], "steradian.inspect-measured/1");
+    assert_eq!(object["header"][0]["value"], "Bogus");
+    assert_eq!(object["blocks"].as_array().unwrap().len(), 1);
+    let totals = object["totals"].as_array().unwrap().iter();
+    let largest = totals
+        .map(|total| total["largest_sum"].as_f64().unwrap())
+        .fold(0.0, f64::max);
+    assert!((largest - 87.511).abs() < 5e-4, "{largest}");
+    let finding = "Visible: 87.5105 of the light from above at 30 degrees leaves again";
+    assert_eq!(object["findings"], serde_json::json!([finding]));
+    let text = steradian(&["inspect", &measured("radiance_testBSDF.xml")]).fine();
+    assert!(text.contains("tensor tree of rank 3, 57 leaves"));
+    let strict = steradian(&["inspect", &measured("radiance_testBSDF.xml"), "--strict"]);
+    assert_eq!(strict.status(), 1);
+}
+
+#[test]
+fn a_broken_measured_surface_is_refused_with_its_place() {
+    let message = steradian(&["inspect", &measured("klems_small_tab.xml")]).error();
+    assert!(message.contains(
+        "line 109, column 19: Transmission Front: 21025 values are needed, 4 were found"
+    ));
+}

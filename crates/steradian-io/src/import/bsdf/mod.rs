@@ -12,6 +12,7 @@ mod error;
 pub mod merl;
 pub mod reciprocity;
 pub mod rgl;
+pub mod summary;
 pub mod xml;
 
 use std::path::Path;
