@@ -337,21 +337,22 @@ fn the_mean_weight_of_samples_is_the_albedo() {
     } in FINITE.iter().chain(&smooth)
     {
         for wo in views(model) {
+            let drawn = independent(1, 4096).map(|u| model.sample(wo, u));
+            let drawn: Vec<_> = drawn.collect();
             for (transmitted, expected) in
                 [(false, model.albedo(wo)), (true, model.transmittance(wo))]
             {
+                let power = |scatter: &Option<Scatter>| match scatter {
+                    Some(scatter) if scatter.is_transmitted(wo) == transmitted => {
+                        let scale = model.radiance_scale(wo, scatter.wi());
+                        lanes(scatter.weight()).map(|weight| weight / scale)
+                    }
+                    _ => [0.0; 4],
+                };
+                let weights: Vec<_> = drawn.iter().map(power).collect();
                 for lane in 0..4 {
-                    let weights = independent(1, 4096).map(|u| match model.sample(wo, u) {
-                        Some(scatter) if scatter.is_transmitted(wo) == transmitted => {
-                            lanes(scatter.weight())[lane] / model.radiance_scale(wo, scatter.wi())
-                        }
-                        _ => 0.0,
-                    });
-                    assert_mean(
-                        &weights.collect::<Vec<_>>(),
-                        lanes(expected)[lane],
-                        *albedo_error,
-                    );
+                    let weights: Vec<_> = weights.iter().map(|weight| weight[lane]).collect();
+                    assert_mean(&weights, lanes(expected)[lane], *albedo_error);
                 }
             }
         }
@@ -423,6 +424,28 @@ fn parameters_out_of_range_are_refused_by_name() {
     assert!(RoughDielectric::new(facets, -1.5).is_err());
     assert!(SmoothDielectric::new(f64::INFINITY).is_err());
     assert!(Pane::new(0.9, [1.0; 4]).is_err() && Pane::new(1.5, [1.1; 4]).is_err());
+    assert!(Plastic::new(0.9, Spectrum::ONE).is_err() && Plastic::new(1.5, bright).is_err());
+    assert!(RoughPlastic::new(facets, 0.9, Spectrum::ONE).is_err());
+    assert!(glass(1.5).with_tints(bright, Spectrum::ONE).is_err());
+    let milky = PrincipledParameters {
+        transmission: 1.5,
+        ..Default::default()
+    };
+    let message = message(Principled::new(&milky).unwrap_err());
+    assert_eq!(message, "transmission must lie between 0 and 1, got 1.5");
+}
+
+fn glass(eta: f64) -> SmoothDielectric {
+    SmoothDielectric::new(eta).unwrap()
+}
+
+#[test]
+fn parts_of_a_mixture_must_fit_together() {
+    let [glass, water] = [1.5, 1.33].map(|eta| (0.5, Brdf::SmoothDielectric(glass(eta))));
+    let error = Mixture::new(vec![glass.clone(), water]).unwrap_err();
+    assert!(error.to_string().ends_with("got 1.5 and 1.33"));
+    let error = Mixture::new(vec![glass.clone(), glass.clone(), glass]).unwrap_err();
+    assert!(error.to_string().starts_with("weights add up to 1.5"));
 }
 
 /// All models of these tests.
@@ -431,5 +454,49 @@ pub(super) fn every_model() -> Vec<Brdf> {
     finite
         .chain(smooth_models())
         .chain(half_smooth_models())
+        .chain(sharp_models())
         .collect()
+}
+
+/// Rough models that are nearly smooth.
+fn sharp_models() -> Vec<Brdf> {
+    let ground = Facets::isotropic(Slopes::Ggx, 0.1).unwrap();
+    let satin = Facets::isotropic(Slopes::Beckmann, 0.05).unwrap();
+    vec![
+        Brdf::RoughDielectric(RoughDielectric::new(ground, 1.5).unwrap()),
+        Brdf::RoughDielectric(RoughDielectric::new(satin, 1.33).unwrap()),
+        Brdf::RoughConductor(RoughConductor::new(satin, gold())),
+        Brdf::RoughPlastic(RoughPlastic::new(satin, 1.5, REFLECTANCE).unwrap()),
+    ]
+}
+
+/// White everywhere, at the corners of every number: tables are true to 2e-3.
+#[test]
+fn gltf_materials_gain_no_light_at_any_corner() {
+    let ends = [0.0, 1.0];
+    let corner = |bits: u32| ends[usize::from(bits & 1 == 1)];
+    for bits in 0..128_u32 {
+        let parameters = PrincipledParameters {
+            metallic: corner(bits),
+            transmission: corner(bits >> 1),
+            thin: bits >> 2 & 1 == 1,
+            clearcoat: corner(bits >> 3),
+            clearcoat_roughness: corner(bits >> 4),
+            sheen_color: Spectrum::splat(corner(bits >> 5) as f32),
+            sheen_roughness: 0.5,
+            roughness: [0.1, 0.7][usize::from(bits >> 6 & 1 == 1)],
+            specular_color: Spectrum::from_lanes([1.0, 0.0, 3.0, 30.0]),
+            ..Default::default()
+        };
+        let model = Principled::new(&parameters).unwrap();
+        for theta in [0.0, 0.8, 1.4, 1.56] {
+            for wo in [tilted(theta), -tilted(theta)] {
+                let sum = model.albedo(wo) + model.transmittance(wo);
+                assert!(
+                    sum.max_lane() <= 1.0 + 2e-3,
+                    "{parameters:?} {theta}: {sum:?}"
+                );
+            }
+        }
+    }
 }
