@@ -97,8 +97,8 @@ struct LaterLight {
 impl RoughConductor {
     /// With multiple scattering.
     ///
-    /// Isotropic surfaces share their tables, whatever their roughness; an anisotropic one is made in about a tenth of
-    /// a second unless one like it was made before, so that its widths should not vary from point to point.
+    /// Isotropic surfaces share their tables, whatever their roughness; the table of an anisotropic one takes tenths of a
+    /// second unless one like it was made before, so that its widths should not vary from point to point.
     pub fn new(facets: Facets, index: ComplexIndex) -> Self {
         Self {
             later: Some(LaterLight::new(

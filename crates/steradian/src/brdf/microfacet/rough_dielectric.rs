@@ -49,6 +49,9 @@ use crate::geometry::Direction;
 use crate::quantity::Spectrum;
 use crate::sampling::hash::combine;
 
+/// Where light goes straight on it has no density, so that an index closer to 1 than this is taken to be this far from it.
+const LEAST_CHANGE: f64 = 1e-4;
+
 /// A rough interface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoughDielectric {
@@ -81,13 +84,14 @@ struct View {
 impl RoughDielectric {
     /// With multiple scattering, from the index inside over the index outside.
     ///
-    /// Isotropic surfaces of one index share their tables, whatever their roughness; an anisotropic one is made in about
-    /// half a second unless one like it was made before, so that its widths should not vary from point to point.
+    /// Isotropic surfaces of one index share their tables, whatever their roughness; the tables of an anisotropic one take a second
+    /// or more unless one like it was made before, so that its widths should not vary from point to point.
     ///
     /// # Errors
     /// If the index lies outside 0.1 … 10.
     pub fn new(facets: Facets, eta: f64) -> Result<Self, ModelError> {
         let single = Self::single_scattering(facets, eta)?;
+        let eta = single.eta;
         let shares = interface_shares(facets, eta);
         let averages = [0, 1].map(|side| shares.average(side));
         let least = averages[0].min(averages[1]);
@@ -105,9 +109,11 @@ impl RoughDielectric {
     /// # Errors
     /// If the index lies outside 0.1 … 10.
     pub fn single_scattering(facets: Facets, eta: f64) -> Result<Self, ModelError> {
+        let eta = in_range("eta", eta, [0.1, 10.0])?;
+        let bends = (eta - 1.0).abs() >= LEAST_CHANGE;
         Ok(Self {
             facets,
-            eta: in_range("eta", eta, [0.1, 10.0])?,
+            eta: if bends { eta } else { 1.0 + LEAST_CHANGE },
             later: None,
             tints: [Spectrum::ONE; 2],
         })

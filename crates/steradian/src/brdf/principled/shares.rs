@@ -6,6 +6,7 @@ use super::Principled;
 use super::base::Through;
 use crate::brdf::sampling::flipped;
 use crate::geometry::{Direction, gauss};
+use crate::quantity::Spectrum;
 
 /// Azimuths of the quadrature of what is wide.
 const AZIMUTHS: usize = 32;
@@ -38,8 +39,7 @@ impl Principled {
             }
             Through::Solid { share, interface } => {
                 let [back, on] = interface.leaving(wo, layers);
-                let part =
-                    |light: crate::quantity::Spectrum| (light * *share).to_lanes().map(f64::from);
+                let part = |light: Spectrum| (light * *share).to_lanes().map(f64::from);
                 add(&mut reflected, part(back));
                 add(&mut transmitted, part(on));
             }

@@ -465,6 +465,7 @@ fn sharp_models() -> Vec<Brdf> {
     vec![
         Brdf::RoughDielectric(RoughDielectric::new(ground, 1.5).unwrap()),
         Brdf::RoughDielectric(RoughDielectric::new(satin, 1.33).unwrap()),
+        Brdf::RoughDielectric(RoughDielectric::new(ground, 1.0).unwrap()),
         Brdf::RoughConductor(RoughConductor::new(satin, gold())),
         Brdf::RoughPlastic(RoughPlastic::new(satin, 1.5, REFLECTANCE).unwrap()),
     ]
