@@ -221,7 +221,8 @@ impl RoughConductor {
         mirrored_light(self.facets, wo, fineness, reflectance, |_| 1.0)
     }
 
-    /// The albedo of a surface by Schlick's approximation with multiple scattering, from the tables.
+    /// The albedo of a surface by Schlick's approximation with multiple scattering, from the tables; of others 1, which it never
+    /// exceeds.
     pub(in crate::brdf) fn tabulated_albedo(&self, wo: Direction) -> [f64; 4] {
         self.mixed_by(|shares| shares.at(0, wo))
     }
