@@ -60,13 +60,12 @@ pub(super) fn irradiance(
     let none = Wavelengths::default();
     transmittance.trace(tables, &rays, |_| &none, InstructionSet::detect());
     for (i, (light, sample)) in shadows.iter().enumerate() {
-        let Some(through) = transmittance.of(i) else {
-            continue;
-        };
+        let through = transmittance.of(i);
         let irradiance = sample
             .irradiance
             .map(|lane| lane.to_watts_per_square_metre());
-        let channels = if scene.lanes().is_spectral() && through != [1.0; 4] {
+        let in_colours = scene.lanes().is_spectral() && tables.lets_pass;
+        let channels = if in_colours && through != [1.0; 4] {
             through_colours(tables, &alone(&rays, i), light, irradiance)
         } else {
             let part = |lane: usize| irradiance[lane] * f64::from(through[lane]);
@@ -98,7 +97,7 @@ fn through_colours(
     let groups = tables.scene.lanes().grid().into_iter();
     for waves in groups.flat_map(|grid| grid.middles()) {
         transmittance.trace(tables, ray, |_| &waves, InstructionSet::detect());
-        let through = transmittance.of(0).unwrap_or_default();
+        let through = transmittance.of(0);
         let arrives = tables.colors.hue(&hue, &waves);
         for (sum, response) in channels.iter_mut().zip(&tables.responses) {
             let counts = counts(response, &waves);

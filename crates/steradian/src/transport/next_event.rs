@@ -214,28 +214,27 @@ impl NextEvent<'_> {
         shadows
             .transmittance
             .trace(tables, &shadows.rays, of_ray, self.tracer.set);
+        let clear = !tables.lets_pass && tables.media.is_empty();
         for i in 0..vertices.len() {
             let gain = shadows.gain[i];
-            if gain == 0.0 {
+            if gain == 0.0 || shadows.transmittance.stops(i) {
                 continue;
             }
-            let Some(through) = shadows.transmittance.of(i) else {
-                continue;
-            };
             let emitter = &tables.emitters[shadows.emitter[i] as usize];
             let (response, slot) = (&vertices.response, vertices.identity.slot[i]);
             let wavelengths = &workspace.wavelengths[slot as usize];
             let power = tables.lanes_at(&emitter.power, wavelengths, || {
                 shadows.site(tables, emitter, i)
             });
-            let attenuation = match medium(slot as usize) {
-                AIR => [1.0; 4],
-                medium => tables.attenuation(medium, shadows.way(i), wavelengths),
-            };
+            let mut gains = [gain; 4];
+            if !clear {
+                let through = shadows.transmittance.of(i);
+                let along = tables.attenuation(medium(slot as usize), shadows.way(i), wavelengths);
+                gains = std::array::from_fn(|lane| gain * through[lane] * along[lane]);
+            }
             self.tracer
                 .add(&mut workspace.gathered, emitter.group, slot, |lane| {
-                    let arrives = through[lane] * attenuation[lane];
-                    response[lane][i] * power[lane] * gain * arrives
+                    response[lane][i] * power[lane] * gains[lane]
                 });
         }
         workspace.watch.lap(Stage::Shadows);

@@ -126,10 +126,7 @@ impl Tracer<'_> {
                 self.escape(&workspace.flights, i, wavelengths, &mut workspace.gathered);
                 continue;
             }
-            let mut hit = hit(tables, &workspace.flights.rays, &workspace.hits, i);
-            if workspace.flights.travelled[i] > 0.0 {
-                hit.set_back(workspace.flights.travelled[i]);
-            }
+            let hit = self.met(workspace, i);
             let side = &tables.sides[hit.side as usize];
             if side.emits {
                 let weight = self.emission_weight(
@@ -148,41 +145,49 @@ impl Tracer<'_> {
                 workspace.let_pass(i, &hit);
                 continue;
             }
-            if matches!(side.model, Model::Lambertian | Model::Mirror) {
-                let reflectance =
-                    tables.lanes_at(&side.reflectance, wavelengths, || tables.site(&hit));
-                self.reflect_at(workspace, i, &hit, &reflectance);
-            } else if side.model == Model::Any {
-                let site = tables.site(&hit);
-                let encounter = Encounter::of_flight(&workspace.flights, i, &hit, site);
-                workspace.encounters.push(encounter);
-            } else if side.model == Model::Pane {
-                self.arrive_at_pane(workspace, i, &hit);
+            match side.model {
+                Model::Black => continue,
+                Model::Pane | Model::Any => {
+                    self.arrive_at_any(workspace, i);
+                    continue;
+                }
+                Model::Lambertian | Model::Mirror => {}
+            }
+            let reflectance = tables.lanes_at(&side.reflectance, wavelengths, || tables.site(&hit));
+            let flights = &workspace.flights;
+            if side.model == Model::Lambertian {
+                let factor = std::f32::consts::FRAC_1_PI;
+                let vertices = &mut workspace.vertices;
+                push(vertices, flights, i, hit.place, &reflectance, factor);
+            } else {
+                workspace.mirrored(i, &hit, &reflectance);
             }
         }
     }
 
-    /// Collects a vertex that is a Lambertian reflector or a mirror.
+    /// What flight `i` met, seen from where it left its last vertex.
     #[inline(always)]
-    fn reflect_at(&self, workspace: &mut Workspace, i: usize, hit: &Hit, reflectance: &Lanes4) {
+    fn met(&self, workspace: &Workspace, i: usize) -> Hit {
         let flights = &workspace.flights;
-        if self.tables.sides[hit.side as usize].model == Model::Lambertian {
-            let vertices = &mut workspace.vertices;
-            let factor = std::f32::consts::FRAC_1_PI;
-            push(vertices, flights, i, hit.place, reflectance, factor);
+        let mut hit = hit(self.tables, &flights.rays, &workspace.hits, i);
+        if flights.travelled[i] > 0.0 {
+            hit.set_back(flights.travelled[i]);
+        }
+        hit
+    }
+
+    /// Collects a vertex of any other model. It finds its hit by itself, so that those of diffuse surfaces need not leave the
+    /// registers.
+    #[inline(never)]
+    fn arrive_at_any(&self, workspace: &mut Workspace, i: usize) {
+        let hit = self.met(workspace, i);
+        if self.tables.sides[hit.side as usize].model == Model::Pane {
+            self.arrive_at_pane(workspace, i, &hit);
             return;
         }
-        push(
-            &mut workspace.mirrors,
-            flights,
-            i,
-            hit.place,
-            reflectance,
-            1.0,
-        );
-        for (column, axis) in workspace.viewer.iter_mut().zip(hit.viewer) {
-            column.push(axis);
-        }
+        let site = self.tables.site(&hit);
+        let encounter = Encounter::of_flight(&workspace.flights, i, &hit, site);
+        workspace.encounters.push(encounter);
     }
 
     /// Lets a path go straight through a pane or reflects it, in proportion to the light that each leaves to it: its
@@ -206,7 +211,7 @@ impl Tracer<'_> {
             workspace.let_pass(i, hit);
         } else {
             let reflected = reflected.map(|lane| lane / (1.0 - share));
-            self.reflect_at(workspace, i, hit, &reflected);
+            workspace.mirrored(i, hit, &reflected);
         }
     }
 
@@ -232,6 +237,7 @@ impl Tracer<'_> {
     }
 
     /// A uniform number for this meeting of a path and a surface.
+    #[inline(always)]
     fn number_for(&self, flights: &Flights, i: usize, hit: &Hit) -> f32 {
         let (_, key, index) = flights.identity.at(i);
         // The numbers for the next light differ from segment to segment.
@@ -285,6 +291,18 @@ impl Tracer<'_> {
         let group = if self.merge_groups { 0 } else { group as usize };
         for lane in 0..self.tables.lanes {
             gathered[(group * self.tables.lanes + lane) * BATCH + slot as usize] += value(lane);
+        }
+    }
+}
+
+impl Workspace {
+    /// Collects a mirror of this reflectance, which flight `i` met.
+    #[inline(always)]
+    fn mirrored(&mut self, i: usize, hit: &Hit, reflectance: &Lanes4) {
+        let (mirrors, flights) = (&mut self.mirrors, &self.flights);
+        push(mirrors, flights, i, hit.place, reflectance, 1.0);
+        for (column, axis) in self.viewer.iter_mut().zip(hit.viewer) {
+            column.push(axis);
         }
     }
 }

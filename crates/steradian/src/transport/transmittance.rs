@@ -38,14 +38,23 @@ impl Transmittance {
         }
     }
 
-    /// T of a segment; `None` for 0.
+    /// Whether nothing gets along a segment.
     #[inline(always)]
-    pub fn of(&self, segment: usize) -> Option<Lanes4> {
-        if !self.stopped[segment] {
-            return Some([1.0; 4]);
+    pub fn stops(&self, segment: usize) -> bool {
+        self.stopped[segment]
+            && self
+                .parts
+                .get(segment)
+                .is_none_or(|lanes| *lanes == [0.0; 4])
+    }
+
+    /// T of a segment.
+    pub fn of(&self, segment: usize) -> Lanes4 {
+        if self.stopped[segment] {
+            self.parts.get(segment).copied().unwrap_or_default()
+        } else {
+            [1.0; 4]
         }
-        let part = self.parts.get(segment).copied();
-        part.filter(|lanes| *lanes != [0.0; 4])
     }
 }
 
