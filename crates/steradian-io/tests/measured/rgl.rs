@@ -6,6 +6,10 @@ use std::path::Path;
 use steradian::brdf::Measured;
 use steradian::brdf::measured::Reading;
 use steradian::geometry::{Direction, Vector};
+use steradian::material::Recipe;
+use steradian::scene::LoneMaterial;
+use steradian::scene::description::{MaterialDescription, MaterialModel};
+use steradian::spectrum::Lanes;
 use steradian_io::files::MemoryFiles;
 use steradian_io::import::bsdf::{MeasuredFile, read};
 
@@ -381,4 +385,54 @@ fn broken_files_are_refused_with_their_place() {
         "{nodes}"
     );
     assert!(changed(3, &|field| field.2[0] = usize::MAX).contains("the file needs"));
+}
+
+/// Of a path the model has the path's wavelengths; colours are refused there.
+#[test]
+fn materials_read_tables_in_the_lanes_of_a_run() {
+    let spectra = file(&isotropic(vec![400.0, 500.0, 600.0, 700.0]));
+    let material = |file: &MeasuredFile, lanes: &Lanes| {
+        let recipe = Recipe::Measured(file.model().unwrap().clone());
+        let description = MaterialDescription::new("a", MaterialModel::Recipe(recipe));
+        LoneMaterial::new(&description, lanes)
+    };
+    let spectral = Lanes::spectral([400.0, 700.0], vec![]).unwrap();
+    let material_at = material(&spectra, &spectral).unwrap();
+    let (wo, wi) = (polar(0.4, 0.0), polar(0.5, 3.0));
+    for wavelengths in [[450.0, 600.0, 650.0, 700.0], [650.0, 450.0, 500.0, 400.0]] {
+        let model = spectra
+            .model()
+            .unwrap()
+            .in_lanes(Reading::Wavelengths(wavelengths))
+            .unwrap();
+        let found = material_at
+            .brdf(wavelengths)
+            .unwrap()
+            .evaluate(wo, wi)
+            .to_lanes();
+        // Places of wavelengths are single precision.
+        for (found, expected) in found.into_iter().zip(model.evaluate(wo, wi).to_lanes()) {
+            assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
+        }
+    }
+    let bands = Lanes::broadband(&["visible".to_owned()]).unwrap();
+    let grey = material(&spectra, &bands)
+        .unwrap()
+        .brdf([0.0; 4])
+        .unwrap()
+        .evaluate(wo, wi);
+    let [red, green, blue, _] = lanes(spectra.model().unwrap(), wo, wi);
+    let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+    assert!(
+        grey.to_lanes()
+            .iter()
+            .all(|lane| (f64::from(*lane) / luminance - 1.0).abs() < 1e-6)
+    );
+    let colours = file(&isotropic(vec![]));
+    let refused = material(&colours, &spectral).err().unwrap();
+    assert!(
+        refused
+            .message
+            .contains("colours, which say nothing about wavelengths")
+    );
 }

@@ -5,7 +5,8 @@ use std::convert::Infallible;
 use std::f64::consts::TAU;
 
 use super::{ColorLanes, Recipe, Role, Scalar, Site, Tint, Turn};
-use crate::brdf::Brdf;
+use crate::brdf::measured::Reading;
+use crate::brdf::{Brdf, Measured};
 use crate::geometry::{Direction, gauss};
 use crate::quantity::Spectrum;
 use crate::spectrum::Wavelengths;
@@ -28,7 +29,8 @@ impl PreparedRecipe {
         let lanes = recipe.all_lanes();
         let numbers = recipe.all_numbers();
         let is_constant = lanes.into_iter().all(Tint::is_constant)
-            && numbers.iter().all(|number| number.picture.is_none());
+            && numbers.iter().all(|number| number.picture.is_none())
+            && !recipe.follows_wavelengths();
         Self {
             base,
             is_constant,
@@ -117,6 +119,15 @@ impl Turn<'_, Tint, Scalar> for AtPoint<'_> {
 
     fn number(&mut self, _: &'static str, number: &Scalar) -> Result<f64, Infallible> {
         Ok(number.at(self.site))
+    }
+
+    fn table(&mut self, table: &Measured) -> Result<Measured, Infallible> {
+        let ColorLanes::Spectral { grid, .. } = self.colors else {
+            return Ok(table.clone());
+        };
+        let places = self.wavelengths.places.map(f64::from);
+        let lanes = Reading::Wavelengths(places.map(|place| grid.wavelength(place)));
+        Ok(table.in_lanes(lanes).unwrap_or_else(|| table.clone()))
     }
 }
 

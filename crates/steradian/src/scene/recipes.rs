@@ -6,7 +6,8 @@ use super::Fault;
 use super::curves::Curves;
 use super::description::{LaneValues, Scalar, Varying};
 use super::materials::{hue, tint};
-use crate::brdf::ModelError;
+use crate::brdf::measured::Reading;
+use crate::brdf::{Measured, ModelError};
 use crate::material::{Hue, PreparedRecipe, Recipe, Role, Tint, Turn};
 use crate::spectrum::Lanes;
 
@@ -103,6 +104,18 @@ impl Turn<'_, Varying, Scalar> for InLanes<'_> {
             return Err((key, "the placement of a texture is finite".into()));
         }
         Ok(number.clone())
+    }
+
+    fn table(&mut self, table: &Measured) -> Result<Measured, Fault> {
+        let lanes = match self.lanes.grid() {
+            Some(grid) => Reading::Wavelengths([grid.range()[0]; 4]),
+            None if self.lanes.is_rgb() => Reading::Rgb,
+            None => Reading::Luminance,
+        };
+        let unknown = "this table has colours, which say nothing about wavelengths: state spectrum = \"rgb\", or take a table of spectra";
+        table
+            .in_lanes(lanes)
+            .ok_or_else(|| ("file", unknown.into()))
     }
 }
 

@@ -255,12 +255,12 @@ pub const MATERIALS: Family = Family {
         ),
         Kind::new(
             "measured",
-            "A measured surface, the same in all lanes",
+            "A measured surface: values of a file",
             &[
                 Key::required(
                     "file",
                     Value::File,
-                    "A table of LBNL (BSDF XML: Klems matrices and tensor trees), its visible values; the normal points inside the building",
+                    "BSDF XML of LBNL (.xml: Klems matrices and tensor trees; its visible values, in all lanes; the normal points inside the building), MERL (.binary; not in spectral runs) or RGL (.bsdf; of spectra in spectral runs)",
                 ),
                 OPACITY_KEY,
             ],

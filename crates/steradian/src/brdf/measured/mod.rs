@@ -80,6 +80,11 @@ impl Measured {
         }
     }
 
+    /// Whether its lanes are single wavelengths, so that it changes from path to path.
+    pub const fn is_at_wavelengths(&self) -> bool {
+        matches!(self, Self::Rgl(_, Reading::Wavelengths(_)))
+    }
+
     /// ρ(d_e, d_i).
     pub fn evaluate(&self, wo: Direction, wi: Direction) -> Spectrum {
         match self {

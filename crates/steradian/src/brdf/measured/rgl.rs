@@ -15,7 +15,7 @@
 //! | S | what is left of the reflection | 1 |
 //!
 //! The density is p(w⁻¹(u)) q(u)/(4 (d_e·m) 2π² u₁ sinθ_m), with the densities p of luminance and q of visible facets. The weight is
-//! S/p D/(4σ)/q × the Jacobian: bounded as far as the luminance follows S, which it is made for. The albedo is the mean of 64 × 64 weights.
+//! S/p D/(4σ)/q × the Jacobian: bounded as far as the luminance follows S, which it is made for. The albedo is the mean of 32 × 32 weights.
 //! Source: J. Dupuy, W. Jakob, *An adaptive parameterization for efficient material acquisition and rendering* (SIGGRAPH Asia
 //! 2018), eq. 12 and §5.
 
@@ -30,7 +30,7 @@ use crate::geometry::{Direction, Vector};
 use crate::quantity::Spectrum;
 
 /// Points along either side of the square for the albedo.
-const ALBEDO: u32 = 64;
+const ALBEDO: u32 = 32;
 
 /// What a file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,7 +140,7 @@ impl Rgl {
         };
         let factor = self.factor(&view, place) / wi.z();
         let warped = self.visible_facets.invert(&view.mixture, place);
-        self.lanes(&view, warped, reading) * factor
+        self.lanes(&view, warped, factor, reading)
     }
 
     pub(super) fn sample(&self, wo: Direction, u: [f64; 2], reading: Reading) -> Option<Scatter> {
@@ -245,8 +245,8 @@ impl Rgl {
         }
     }
 
-    /// S in lanes.
-    fn lanes(&self, view: &View, place: [f64; 2], reading: Reading) -> Spectrum {
+    /// S times a factor, in lanes.
+    fn lanes(&self, view: &View, place: [f64; 2], factor: f64, reading: Reading) -> Spectrum {
         match (reading, &self.tables.spectra) {
             (Reading::Wavelengths(wavelengths), Some((nodes, sheets))) => {
                 let lane = |wavelength: f64| {
@@ -255,13 +255,13 @@ impl Rgl {
                     let [a, b] = [low, high].map(|channel| {
                         sheets.at(&channels(&view.mixture, channel, nodes.len()), place)
                     });
-                    (a + part * (b - a)) as f32
+                    (factor * (a + part * (b - a))) as f32
                 };
                 Spectrum::from_lanes(wavelengths.map(lane))
             }
             _ => reading.of_colour([0, 1, 2].map(|channel| {
                 let sheets = &self.tables.colours;
-                sheets.at(&channels(&view.mixture, channel, 3), place)
+                factor * sheets.at(&channels(&view.mixture, channel, 3), place)
             })),
         }
     }

@@ -16,6 +16,15 @@ impl<L, N> Recipe<L, N> {
         }
     }
 
+    /// Whether a measured surface is read at the wavelengths of each path.
+    pub fn follows_wavelengths(&self) -> bool {
+        match self {
+            Self::Measured(table) => table.is_at_wavelengths(),
+            Self::Mixture { parts, .. } => parts.iter().any(Self::follows_wavelengths),
+            _ => false,
+        }
+    }
+
     /// Whether single directions are all that it couples.
     pub fn is_specular(&self) -> bool {
         match self {

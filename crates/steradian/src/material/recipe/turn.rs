@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 
 use super::Recipe;
+use crate::brdf::Measured;
 
 /// What a number in lanes stands for.
 #[derive(Copy, Clone, Debug, PartialEq, Eq)]
@@ -42,6 +43,11 @@ pub trait Turn<'a, L, N> {
 
     /// Turns a number.
     fn number(&mut self, key: &'static str, number: &'a N) -> Result<Self::Number, Self::Error>;
+
+    /// Turns a measured surface, which is the same unless lanes are turned into others.
+    fn table(&mut self, table: &'a Measured) -> Result<Measured, Self::Error> {
+        Ok(table.clone())
+    }
 }
 
 /// Collects everything.
@@ -135,7 +141,7 @@ impl<L, N> Recipe<L, N> {
                 ior: *ior,
                 transmittance: with.lanes("transmittance", Share, transmittance)?,
             },
-            Self::Measured(table) => Recipe::Measured(table.clone()),
+            Self::Measured(table) => Recipe::Measured(with.table(table)?),
             Self::Plastic {
                 ior,
                 diffuse,
