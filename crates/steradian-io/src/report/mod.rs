@@ -20,6 +20,7 @@ pub mod pfm;
 pub mod picture_file;
 pub mod plot;
 pub mod png;
+mod raster;
 pub mod run;
 pub mod shard;
 pub mod svg;

@@ -12,14 +12,17 @@
 
 use std::fmt::Write;
 
+use super::error::ReportError;
+use super::raster;
+
 const FONTS: &str = "DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif";
 
 /// How a line is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    colour: String,
-    width: f64,
-    dashes: Option<[f64; 2]>,
+    pub(super) colour: String,
+    pub(super) width: f64,
+    pub(super) dashes: Option<[f64; 2]>,
 }
 
 impl Stroke {
@@ -81,17 +84,68 @@ impl Anchor {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Svg {
     text: String,
+    size: [f64; 2],
+    marks: Vec<Mark>,
+}
+
+/// What was drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Mark {
+    Line(Vec<[f64; 2]>, Stroke),
+    Area {
+        rings: Vec<Vec<[f64; 2]>>,
+        fill: String,
+        opacity: f64,
+        stroke: Option<Stroke>,
+    },
+    Disc {
+        center: [f64; 2],
+        radius: f64,
+        fill: String,
+        stroke: Option<Stroke>,
+    },
+    Words {
+        at: [f64; 2],
+        words: String,
+        size: f64,
+        anchor: Anchor,
+        colour: String,
+        is_upward: bool,
+    },
 }
 
 impl Svg {
     /// An empty sheet of this size in pixels.
     pub fn new(width: f64, height: f64) -> Self {
+        let size = [width, height];
         let (width, height) = (number(width), number(height));
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
              font-family=\"{FONTS}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
         );
-        Self { text }
+        Self {
+            text,
+            size,
+            marks: Vec::new(),
+        }
+    }
+
+    /// Width and height in pixels.
+    pub(super) const fn size(&self) -> [f64; 2] {
+        self.size
+    }
+
+    /// What was drawn, in order.
+    pub(super) fn marks(&self) -> &[Mark] {
+        &self.marks
+    }
+
+    /// The sheet as a PNG of twice as many pixels. Words are set in a font of eight by eight dots.
+    ///
+    /// # Errors
+    /// If there are too many pixels.
+    pub fn to_png(&self) -> Result<Vec<u8>, ReportError> {
+        raster::encode(self)
     }
 
     /// A straight line.
@@ -101,6 +155,7 @@ impl Svg {
 
     /// A line through points.
     pub fn polyline(&mut self, points: &[[f64; 2]], stroke: &Stroke) {
+        self.marks.push(Mark::Line(points.to_vec(), stroke.clone()));
         let _ = writeln!(
             self.text,
             r#"<polyline points="{}" fill="none" stroke-linejoin="round" {}/>"#,
@@ -117,6 +172,12 @@ impl Svg {
         opacity: f64,
         stroke: Option<&Stroke>,
     ) {
+        self.marks.push(Mark::Area {
+            rings: outlines.to_vec(),
+            fill: fill.to_owned(),
+            opacity,
+            stroke: stroke.cloned(),
+        });
         let rings: Vec<String> = outlines
             .iter()
             .map(|ring| format!("M{}Z", coordinates(ring)))
@@ -133,6 +194,12 @@ impl Svg {
 
     /// A disc, filled, perhaps with a rim.
     pub fn circle(&mut self, center: [f64; 2], radius: f64, fill: &str, stroke: Option<&Stroke>) {
+        self.marks.push(Mark::Disc {
+            center,
+            radius,
+            fill: fill.to_owned(),
+            stroke: stroke.cloned(),
+        });
         let _ = writeln!(
             self.text,
             r#"<circle cx="{}" cy="{}" r="{}" fill="{}" {}/>"#,
@@ -146,6 +213,29 @@ impl Svg {
 
     /// A line of words of a size in pixels, standing on `at`.
     pub fn text(&mut self, at: [f64; 2], words: &str, size: f64, anchor: Anchor, colour: &str) {
+        self.mark_words(at, words, size, (anchor, false), colour);
+        self.write_words(at, words, size, anchor, colour);
+    }
+
+    fn mark_words(
+        &mut self,
+        at: [f64; 2],
+        words: &str,
+        size: f64,
+        (anchor, is_upward): (Anchor, bool),
+        colour: &str,
+    ) {
+        self.marks.push(Mark::Words {
+            at,
+            words: words.to_owned(),
+            size,
+            anchor,
+            colour: colour.to_owned(),
+            is_upward,
+        });
+    }
+
+    fn write_words(&mut self, at: [f64; 2], words: &str, size: f64, anchor: Anchor, colour: &str) {
         let _ = writeln!(
             self.text,
             r#"<text x="{}" y="{}" font-size="{}" text-anchor="{}" fill="{}">{}</text>"#,
@@ -169,12 +259,13 @@ impl Svg {
     }
 
     fn turned_text(&mut self, at: [f64; 2], words: &str, size: f64, anchor: Anchor, colour: &str) {
+        self.mark_words(at, words, size, (anchor, true), colour);
         let [x, y] = at.map(number);
         let _ = writeln!(
             self.text,
             r#"<g transform="translate({x} {y}) rotate(-90)">"#
         );
-        self.text([0.0, 0.0], words, size, anchor, colour);
+        self.write_words([0.0, 0.0], words, size, anchor, colour);
         self.text.push_str("</g>\n");
     }
 

@@ -8,7 +8,7 @@ use crate::report::svg::{Anchor, Stroke, Svg};
 
 /// The colours of M. Okabe & K. Ito, "Color Universal Design" (2008), which colour-blind readers tell apart, without
 /// yellow, which is faint on white.
-const COLOURS: [&str; 7] = [
+pub(super) const COLOURS: [&str; 7] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000",
 ];
 const PICTURE: Frame = Frame {
@@ -28,6 +28,7 @@ pub struct Series {
     points: Vec<[f64; 2]>,
     half_widths: Vec<f64>,
     is_dashed: bool,
+    colour: Option<usize>,
 }
 
 impl Series {
@@ -38,12 +39,19 @@ impl Series {
             points: points.into_iter().collect(),
             half_widths: Vec::new(),
             is_dashed: false,
+            colour: None,
         }
     }
 
     /// The same, dashed: for what is not computed but expected.
     pub fn dashed(mut self) -> Self {
         self.is_dashed = true;
+        self
+    }
+
+    /// The same in the colour of another line, by its number from 0.
+    pub fn in_colour_of(mut self, line: usize) -> Self {
+        self.colour = Some(line);
         self
     }
 
@@ -126,6 +134,21 @@ impl LinePlot {
     /// # Errors
     /// If there are no points, or a number has no place on its axis.
     pub fn to_svg(&self) -> Result<String, PlotError> {
+        Ok(self.drawing()?.finish())
+    }
+
+    /// The drawing as pixels.
+    ///
+    /// # Errors
+    /// Those of [`to_svg`](Self::to_svg), and if there are too many pixels.
+    pub fn to_png(&self) -> Result<Vec<u8>, PlotError> {
+        let drawing = self.drawing()?;
+        drawing
+            .to_png()
+            .map_err(|error| PlotError::Encoding(error.to_string()))
+    }
+
+    fn drawing(&self) -> Result<Svg, PlotError> {
         self.check()?;
         let [x, y] =
             [(&self.x, 0), (&self.y, 1)].map(|(axis, part)| Scale::new(axis, self.extent(part)));
@@ -141,7 +164,7 @@ impl LinePlot {
             draw(&mut sheet, series, &series.stroke(colour), [&x, &y]);
         }
         self.legend(&mut sheet);
-        Ok(sheet.finish())
+        Ok(sheet)
     }
 
     fn check(&self) -> Result<(), PlotError> {
@@ -168,7 +191,10 @@ impl LinePlot {
     }
 
     fn coloured(&self) -> impl Iterator<Item = (&Series, &str)> {
-        self.series.iter().zip(COLOURS.into_iter().cycle())
+        self.series.iter().enumerate().map(|(line, series)| {
+            let colour = series.colour.unwrap_or(line);
+            (series, COLOURS[colour % COLOURS.len()])
+        })
     }
 
     fn legend_width(&self) -> f64 {

@@ -1,4 +1,4 @@
-//! Diagrams as SVG: lines over two axes, and matrices in colour.
+//! Diagrams as SVG: lines over two axes, curves around a point, matrices and hemispheres in colour.
 //!
 //! An axis states what it shows and in which unit. Numbers that no diagram can show (NaN, infinite, not positive on a
 //! logarithmic axis) are refused, not left out. Texts name fonts and carry none, so the files are small; the same
@@ -11,12 +11,16 @@ mod cut;
 mod frame;
 mod heat_map;
 mod heat_pixels;
+mod hemisphere_map;
 mod line_plot;
+mod polar_plot;
 mod scale;
 
 pub use axis::Axis;
 pub use heat_map::HeatMap;
+pub use hemisphere_map::{HemisphereMap, HemispherePanel};
 pub use line_plot::{LinePlot, Series};
+pub use polar_plot::{PolarCurve, PolarPlot};
 
 /// Why numbers make no diagram.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
