@@ -8,7 +8,7 @@ use crate::{layers, licences, schema};
 
 const TESTS: &str = "steradian-tests";
 
-/// Format, lints, layers, licences, tests with documentation tests, quick statistics in release mode, generated files.
+/// Format, lints, layers, licences, tests with documentation tests, every reflection model's checks, quick statistics in release mode, generated files.
 pub fn test(root: &Path) -> Result<(), String> {
     let run = |arguments: &[&str]| succeed(&mut cargo(root, arguments));
     let mut steps = Steps::default();
@@ -27,6 +27,10 @@ pub fn test(root: &Path) -> Result<(), String> {
         ])
     });
     steps.run("tests", || run(&["test", "--quiet", "--workspace"]));
+    steps.run("reflection models", || {
+        let command = ["run", "--quiet", "--package", "steradian-cli", "--"];
+        run(&[&command[..], &["brdf", "check"]].concat())
+    });
     steps.run("generated files", || schema::check(root));
     steps.run("documentation", || docs(root));
     advisories(root, &mut steps);

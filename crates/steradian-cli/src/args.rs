@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::{
-    area, direction, energy, form_factor, help, inspect, learn, measure, merge, render,
+    area, brdf, direction, energy, form_factor, help, inspect, learn, measure, merge, render,
     solid_angle, verify,
 };
 
@@ -49,6 +49,8 @@ pub enum Command {
     FormFactor(Box<form_factor::Arguments>),
     /// Solid angle of an object seen from a point
     SolidAngle(Box<solid_angle::Arguments>),
+    /// Reflection models: values, shares of light, pictures, and checks of their physics
+    Brdf(Box<brdf::Arguments>),
     /// Convert a direction between angles and a vector
     Direction(direction::Arguments),
     /// Integrate a flux over time, or turn the readings of an energy meter into fluxes

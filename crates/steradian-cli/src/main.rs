@@ -2,6 +2,7 @@
 
 mod area;
 mod args;
+mod brdf;
 mod direction;
 mod energy;
 mod engine;
@@ -48,6 +49,7 @@ fn run(command: Command) -> Result<Outcome, Failure> {
         Command::Area(arguments) => area::run(&arguments),
         Command::FormFactor(arguments) => form_factor::run(&arguments),
         Command::SolidAngle(arguments) => solid_angle::run(&arguments),
+        Command::Brdf(arguments) => brdf::run(&arguments),
         Command::Direction(arguments) => direction::run(&arguments),
         Command::Energy(arguments) => energy::run(&arguments),
         Command::Learn(arguments) => learn::run(&arguments),

@@ -2,7 +2,7 @@
 
 use steradian_tests::command::{root, steradian};
 
-const SUBCOMMANDS: [&str; 8] = [
+const SUBCOMMANDS: [&str; 9] = [
     "render",
     "measure",
     "inspect",
@@ -11,6 +11,7 @@ const SUBCOMMANDS: [&str; 8] = [
     "area",
     "direction",
     "energy",
+    "brdf",
 ];
 
 #[test]

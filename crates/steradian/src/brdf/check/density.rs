@@ -12,8 +12,9 @@ use crate::geometry::{Direction, gauss};
 const ORDER: usize = 5;
 /// Parts of a cell's share, and of 1, that may be missed.
 const RELATIVE: f64 = 2e-4;
-const ABSOLUTE: f64 = 1e-7;
-const DEEPEST_RULE: u32 = 9;
+const ABSOLUTE: f64 = 1e-6;
+/// Enough for the edges of tabulated patches.
+const DEEPEST_RULE: u32 = 7;
 const DEEPEST_CELL: u32 = 64;
 
 /// A direction by its side (false: above), 1 − |cosθ| and φ in 0 … 2π.

@@ -23,17 +23,18 @@ pub struct FurnaceRow {
     pub std_error: f64,
 }
 
-/// The row of one model, from its samples and not from its albedo.
-pub fn furnace(model: &Brdf, roughness: f64, effort: &Effort) -> FurnaceRow {
+/// The row of one model, from its samples and not from its albedo, by the first `lanes` of its lanes.
+pub fn furnace(model: &Brdf, lanes: usize, roughness: f64, effort: &Effort) -> FurnaceRow {
     let mut std_error = 0.0_f64;
     let shares = FURNACE_ANGLES.map(|degrees| {
         let found = mean_weights(model, polar(degrees.to_radians(), 0.3), effort);
-        for lane in 0..4 {
-            std_error = std_error.max(found.std_error[0][lane] + found.std_error[1][lane]);
-        }
-        let sums: [f64; 4] = std::array::from_fn(|k| found.reflected[k] + found.transmitted[k]);
-        [f64::min, f64::max]
-            .map(|best: fn(f64, f64) -> f64| sums.into_iter().reduce(best).unwrap_or(0.0))
+        let errors = found.sum_error.into_iter().take(lanes);
+        std_error = errors.fold(std_error, f64::max);
+        let both = found.reflected.into_iter().zip(found.transmitted);
+        both.take(lanes)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (r, t)| {
+                [low.min(r + t), high.max(r + t)]
+            })
     });
     FurnaceRow {
         roughness,

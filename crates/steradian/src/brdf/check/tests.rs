@@ -71,7 +71,7 @@ fn directions_that_are_bent_by_a_tenth_are_refused() {
 fn the_furnace_tells_what_single_scattering_loses() {
     let facets = Facets::isotropic(Slopes::Ggx, 1.0).unwrap();
     let single = RoughConductor::single_scattering(facets, ComplexIndex::PERFECT);
-    let row = furnace(&Brdf::RoughConductor(single), 1.0, &Effort::QUICK);
+    let row = furnace(&Brdf::RoughConductor(single), 4, 1.0, &Effort::QUICK);
     // 1 − ln 2 of the light from above comes back.
     assert!(
         (row.shares[0][0] - (1.0 - std::f64::consts::LN_2)).abs() < 1e-3,
@@ -80,7 +80,7 @@ fn the_furnace_tells_what_single_scattering_loses() {
     let finding = furnace_finding(&[row]);
     assert!(!finding.passed() && finding.place.is_some());
     let whole = RoughConductor::new(facets, ComplexIndex::PERFECT);
-    let row = furnace(&Brdf::RoughConductor(whole), 1.0, &Effort::QUICK);
+    let row = furnace(&Brdf::RoughConductor(whole), 4, 1.0, &Effort::QUICK);
     assert!((furnace_finding(&[row]).worst) < 5e-3, "{row:?}");
 }
 

@@ -27,6 +27,8 @@ pub struct MeanWeight {
     pub transmitted: [f64; 4],
     /// Standard errors of both.
     pub std_error: [[f64; 4]; 2],
+    /// Standard error of their sum, which is not that of its parts: what is not reflected is transmitted.
+    pub sum_error: [f64; 4],
     /// The largest weight drawn.
     pub largest: f64,
 }
@@ -40,26 +42,27 @@ pub fn mean_weights(model: &Brdf, wo: Direction, effort: &Effort) -> MeanWeight 
             replicate_mean(model, wo, key, effort.samples / REPLICATES, &mut largest)
         })
         .collect();
-    let count = f64::from(REPLICATES);
-    let mean: [f64; 8] =
-        std::array::from_fn(|k| means.iter().map(|mean| mean[k]).sum::<f64>() / count);
-    let std_error: [f64; 8] = std::array::from_fn(|k| {
-        let squares: f64 = means
-            .iter()
-            .map(|x| (x[k] - mean[k]) * (x[k] - mean[k]))
-            .sum();
-        (squares / (count * (count - 1.0))).sqrt()
-    });
+    let of = |part: &dyn Fn(&[f64; 8]) -> f64| mean_and_error(means.iter().map(part));
+    let both = [0, 1].map(|side| lanes(|lane| of(&|mean| mean[4 * side + lane])));
     MeanWeight {
-        reflected: half(mean, 0),
-        transmitted: half(mean, 1),
-        std_error: [half(std_error, 0), half(std_error, 1)],
+        reflected: both[0].map(|(mean, _)| mean),
+        transmitted: both[1].map(|(mean, _)| mean),
+        std_error: both.map(|side| side.map(|(_, error)| error)),
+        sum_error: lanes(|lane| of(&|mean| mean[lane] + mean[4 + lane]).1),
         largest,
     }
 }
 
-fn half(both: [f64; 8], which: usize) -> [f64; 4] {
-    std::array::from_fn(|lane| both[4 * which + lane])
+fn lanes<T>(of: impl FnMut(usize) -> T) -> [T; 4] {
+    std::array::from_fn(of)
+}
+
+/// Of independent replicates.
+fn mean_and_error(means: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    let count = f64::from(REPLICATES);
+    let mean = means.clone().sum::<f64>() / count;
+    let squares: f64 = means.map(|x| (x - mean) * (x - mean)).sum();
+    (mean, (squares / (count * (count - 1.0))).sqrt())
 }
 
 /// Reflected lanes, then transmitted ones.
