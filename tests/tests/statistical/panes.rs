@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use steradian::brdf::Pane;
-use steradian::scene::description::SceneDescription;
+use steradian::material::Recipe;
+use steradian::scene::description::{LaneValues, SceneDescription, SpectrumMode};
+use steradian::spectrum::{Beyond, Curve, VISIBLE};
 use steradian_tests::measuring::{measured, reading, rel_error, samples};
 use steradian_tests::scenes::*;
 use steradian_tests::{assert_agrees, assert_close};
@@ -131,4 +133,44 @@ fn a_panel_behind_a_pane_lights_a_wall_once() {
     let irradiance = reading(&measured(&scene, &options), "E").estimate;
     let expected = irradiance.scaled(0.5 / PI);
     steradian_tests::assert_same("L = ρE/π", &radiance, &expected);
+}
+
+/// E = ∫ E_λ T(λ) dλ of a tinted pane that stops all of the shortest waves; and the same to a surface, whose paths take
+/// their own wavelengths. The rule of .5 nm cells is exact to 1e-6.
+#[test]
+fn a_tinted_pane_is_summed_over_the_spectrum() {
+    let tint = vec![(420.0, 0.0), (500.0, 0.4), (650.0, 0.9)];
+    let curve = Curve::new(tint, Beyond::Held).expect("samples in order");
+    let mut scene = behind_pane(0.5);
+    scene.spectrum = SpectrumMode::Spectral { range: VISIBLE };
+    scene.materials[0] = modelled(
+        "glass",
+        Recipe::Pane {
+            ior: 1.5,
+            transmittance: LaneValues::table(curve.clone()).into(),
+        },
+    );
+    scene
+        .lights
+        .push(point_light(p(0.0, 0.0, 2.0), intensity(10.0)));
+    let meter = irradiance_at([(p(0.0, 0.0, 0.0), UP)]);
+    let ray = radiance_along(p(0.3, 0.0, 0.5), v(-0.3, 0.0, -0.5));
+    scene.sensors.extend([sensor("E", meter), sensor("L", ray)]);
+    let mut options = samples(1 << 16);
+    options.max_depth = Some(2);
+    let (n, mut mean) = (4700, 0.0);
+    for k in 0..n {
+        let part = (f64::from(k) + 0.5) / f64::from(n);
+        let tau = curve.at(VISIBLE[0] + part * (VISIBLE[1] - VISIBLE[0]));
+        let pane = Pane::new(1.5, [tau; 4]).expect("glass");
+        mean += pane.shares(1.0)[0].1 / f64::from(n);
+    }
+    let expected = 2.5 * mean;
+    let measured = measured(&scene, &options);
+    let [irradiance, radiance] = ["E", "L"].map(|name| reading(&measured, name).estimate);
+    assert_agrees("L", &radiance, 0.5 / PI * expected, 1e-5);
+    options.max_depth = Some(1);
+    let direct = reading(&steradian_tests::measuring::measured(&scene, &options), "E").estimate;
+    assert_close("E", direct.value, expected, 2e-6 * expected);
+    assert!(irradiance.value >= direct.value, "{irradiance:?}");
 }
