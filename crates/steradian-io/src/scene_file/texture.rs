@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use steradian::scene::description::{
-    Bitmap, Interpolation, LaneValues, Opacity, Pattern, Placement, Texture, Varying, Wrap,
+    Bitmap, Interpolation, LaneValues, Opacity, Pattern, Picture, Placement, Scalar, Texture,
+    Varying, Wrap,
 };
 
 use crate::import::as_opacity;
@@ -14,7 +15,7 @@ use super::keys::{Record, Value};
 use super::node::Node;
 use super::tables::{
     CHECKERBOARD, EMISSION_CHECKERBOARD, EMISSION_PATTERN, EMISSION_TEXTURE, EMISSION_VERTEX_COLOR,
-    OPACITY, OPACITY_TEXTURE, TEXTURE, VARYING, VERTEX_COLOR,
+    NUMBER, NUMBER_TEXTURE, OPACITY, OPACITY_TEXTURE, TEXTURE, VARYING, VERTEX_COLOR,
 };
 use super::value::{Read, choices};
 
@@ -139,6 +140,34 @@ fn picture(
                 .error(span, format!("{name}: {error}"), None);
             None
         }
+    }
+}
+
+/// The place of a channel among red, green, blue and alpha.
+struct Channel(usize);
+
+choices! { Channel, "red" => Self(0), "green" => Self(1), "blue" => Self(2), "alpha" => Self(3) }
+
+impl Read for Scalar {
+    const VALUE: Value = NUMBER;
+
+    fn read(node: Node<'_>) -> Option<Self> {
+        if !node.toml.is_table() {
+            return f64::read(node).map(Self::from);
+        }
+        let fields = node.record(&NUMBER_TEXTURE)?;
+        let (placement, factor) = (placement(&fields), fields.get("factor"));
+        let channel: Option<Channel> = fields.get("channel");
+        let bitmap = picture(&fields, Some(Encoding::Linear), Ok)?;
+        let picture = Picture {
+            bitmap,
+            placement: placement?.0,
+            channel: channel?.0,
+        };
+        Some(Self {
+            factor: factor?,
+            picture: Some(picture),
+        })
     }
 }
 

@@ -2,7 +2,7 @@ use serde_json::{Value, json};
 use steradian::quantity::{Amount, Luminance};
 use steradian::scene::description::{
     Bitmap, EmissionAmount, Interpolation, LaneValues, MaterialDescription, MaterialModel, Pattern,
-    SceneDescription, Texture, Varying, Wrap,
+    PrincipledRecipe, Recipe, Scalar, SceneDescription, Texture, Varying, Wrap,
 };
 
 use crate::building::{Buffer, mesh, refusal, scene};
@@ -31,8 +31,22 @@ fn file(material: Value) -> (Value, Buffer) {
 fn reflectance(material: &MaterialDescription) -> &Varying {
     match &material.model {
         MaterialModel::Lambertian { reflectance } => reflectance,
+        MaterialModel::Recipe(Recipe::Principled(recipe)) => &recipe.base_color,
         other => panic!("{other:?}"),
     }
+}
+
+fn principled(material: Value) -> PrincipledRecipe<Varying, Scalar> {
+    match &with(material).materials[0].model {
+        MaterialModel::Recipe(Recipe::Principled(recipe)) => PrincipledRecipe::clone(recipe),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Factor and channel of a picture.
+fn pictured(number: &Scalar) -> (f64, Option<usize>) {
+    let picture = number.picture.as_ref();
+    (number.factor, picture.map(|picture| picture.channel))
 }
 
 fn bitmap(texture: &Texture) -> &Bitmap {
@@ -60,12 +74,90 @@ fn the_base_colour_is_the_reflectance() {
     assert_eq!(bitmap.wrap, [Wrap::Clamp, Wrap::Mirror]);
     assert_eq!(bitmap.interpolation, Interpolation::Nearest);
     assert!(material.opacity.is_none());
-    assert!(
-        scene
-            .warnings
-            .iter()
-            .any(|warning| warning.contains("metal and gloss"))
+}
+
+#[test]
+fn metal_and_roughness_are_factors_times_channels() {
+    let model = json!({
+        "metallicFactor": 0.75, "roughnessFactor": 0.5, "metallicRoughnessTexture": { "index": 1 },
+    });
+    let recipe = principled(json!({ "pbrMetallicRoughness": model }));
+    assert_eq!(pictured(&recipe.metallic), (0.75, Some(2)));
+    assert_eq!(pictured(&recipe.roughness), (0.5, Some(1)));
+    let plain = principled(json!({}));
+    assert_eq!(pictured(&plain.metallic), (1.0, None));
+    assert_eq!((pictured(&plain.roughness), plain.ior), ((1.0, None), 1.5));
+    assert!(plain.thin && plain.transmission.is_none());
+}
+
+#[test]
+fn extensions_become_parameters() {
+    let texture = json!({ "index": 1 });
+    let recipe = principled(json!({ "extensions": {
+        "KHR_materials_ior": { "ior": 1.33 },
+        "KHR_materials_specular": {
+            "specularFactor": 0.5, "specularTexture": texture, "specularColorFactor": [2, 1, 0.5],
+        },
+        "KHR_materials_transmission": { "transmissionFactor": 0.75, "transmissionTexture": texture },
+        "KHR_materials_clearcoat": {
+            "clearcoatFactor": 0.25, "clearcoatTexture": texture,
+            "clearcoatRoughnessFactor": 0.125, "clearcoatRoughnessTexture": texture,
+        },
+        "KHR_materials_sheen": {
+            "sheenColorFactor": [0.5, 0.25, 0], "sheenColorTexture": texture,
+            "sheenRoughnessFactor": 0.625, "sheenRoughnessTexture": texture,
+        },
+        "KHR_materials_anisotropy": {
+            "anisotropyStrength": 0.5, "anisotropyRotation": 0.25, "anisotropyTexture": texture,
+        },
+    }}));
+    assert_eq!(recipe.ior, 1.33);
+    assert_eq!(pictured(&recipe.specular), (0.5, Some(3)));
+    assert_eq!(
+        recipe.specular_color.factor,
+        LaneValues::Rgb([2.0, 1.0, 0.5])
     );
+    assert_eq!(pictured(&recipe.transmission.unwrap()), (0.75, Some(0)));
+    assert_eq!(pictured(&recipe.clearcoat), (0.25, Some(0)));
+    assert_eq!(pictured(&recipe.clearcoat_roughness), (0.125, Some(1)));
+    assert_eq!(recipe.sheen_color.factor, LaneValues::Rgb([0.5, 0.25, 0.0]));
+    assert_eq!(recipe.sheen_color.textures.len(), 1);
+    assert_eq!(pictured(&recipe.sheen_roughness), (0.625, Some(3)));
+    assert_eq!(pictured(&recipe.anisotropy), (0.5, Some(2)));
+    assert_eq!(pictured(&recipe.anisotropy_rotation), (0.25, None));
+}
+
+#[test]
+fn a_thickness_makes_a_solid_that_absorbs() {
+    let glass = |thickness: f64| {
+        json!({ "extensions": {
+            "KHR_materials_transmission": { "transmissionFactor": 1 },
+            "KHR_materials_volume": {
+                "thicknessFactor": thickness, "attenuationDistance": 0.5, "attenuationColor": [1, 0.5, 0.25],
+            },
+        }})
+    };
+    assert!(principled(glass(0.0)).thin && !principled(glass(0.01)).thin);
+    assert!(with(glass(0.0)).materials[0].media.is_clear());
+    let scene = with(glass(0.01));
+    let Some(LaneValues::Rgb([red, green, blue])) = scene.materials[0].media.inside else {
+        panic!("{:?}", scene.materials[0].media)
+    };
+    // −ln .5/.5 m.
+    assert!(red == 0.0 && (green - 1.386_294).abs() < 1e-6 && (blue - 2.0 * green).abs() < 1e-12);
+}
+
+#[test]
+fn what_is_not_read_is_told() {
+    let told = |material: Value| with(material).warnings.join("\n");
+    let anisotropy = json!({ "anisotropyStrength": 1, "anisotropyTexture": { "index": 1 } });
+    let told_of = told(json!({ "extensions": { "KHR_materials_anisotropy": anisotropy } }));
+    assert!(
+        told_of.contains("directions of anisotropy textures are left out"),
+        "{told_of}"
+    );
+    let index = told(json!({ "extensions": { "KHR_materials_ior": { "ior": 0 } } }));
+    assert!(index.contains("beyond 1 to 10"), "{index}");
 }
 
 #[test]
@@ -111,8 +203,7 @@ fn alpha_is_opacity_where_its_mode_says_so() {
     );
     let glass =
         json!({ "extensions": { "KHR_materials_transmission": { "transmissionFactor": 0.75 } } });
-    let glass = opacity(glass).unwrap();
-    assert_eq!((glass.factor, glass.textures.len()), (0.25, 0));
+    assert!(opacity(glass).is_none());
     let (entries, buffer) = file(json!({ "alphaMode": "SCREEN" }));
     assert!(refusal(entries, &buffer).contains("materials[0]: there is no alpha mode \"SCREEN\""));
 }
@@ -168,11 +259,11 @@ fn vertices_colour_their_own_copy_of_a_material() {
 #[test]
 fn extensions_that_are_needed_are_known() {
     let (mut entries, buffer) = file(json!({}));
-    entries["extensionsRequired"] = json!(["KHR_materials_sheen"]);
+    entries["extensionsRequired"] = json!(["KHR_materials_iridescence"]);
     let told = scene(entries.clone(), &buffer).warnings;
     assert!(
         told.iter()
-            .any(|warning| warning.contains("KHR_materials_sheen is approximated"))
+            .any(|warning| warning.contains("KHR_materials_iridescence is left out"))
     );
     entries["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
     let says = "the file needs the extension KHR_draco_mesh_compression, which is not supported";

@@ -157,6 +157,69 @@ fn coats_and_gloss() {
 }
 
 #[test]
+fn named_metals_and_glasses() {
+    let ring = MaterialModel::Metal {
+        metal: Metal::Gold,
+        roughness: None,
+    };
+    assert_eq!(material("ring").model, ring);
+    let cast = material("cast-iron").model;
+    assert!(matches!(
+        cast,
+        MaterialModel::Metal {
+            metal: Metal::Iron,
+            roughness: Some(_)
+        }
+    ));
+    let pond = Recipe::Dielectric {
+        ior: Glass::Water.index(),
+        exterior_ior: 1.0,
+        roughness: None,
+    };
+    assert_eq!(recipe("pond"), pond);
+    assert!(matches!(
+        material("pond").media.inside,
+        Some(LaneValues::Curve { .. })
+    ));
+    assert!(
+        matches!(recipe("etched"), Recipe::Dielectric { ior, .. } if ior == Glass::NBk7.index())
+    );
+    assert!(material("etched").media.is_clear());
+}
+
+#[test]
+fn gltfs_material() {
+    let Recipe::Principled(car) = recipe("car") else {
+        panic!("not principled")
+    };
+    let picture = car.roughness.picture.as_ref().unwrap();
+    assert_eq!((car.roughness.factor, picture.channel), (0.5, 1));
+    assert_eq!(picture.placement, [[1.0, 0.0, 0.0], [0.0, 2.0, 0.5]]);
+    let expected = PrincipledRecipe {
+        metallic: 0.25.into(),
+        roughness: car.roughness.clone(),
+        ior: 1.4,
+        specular: 0.5.into(),
+        specular_color: grey(2.0),
+        transmission: Some(0.125.into()),
+        thin: false,
+        clearcoat: 1.0.into(),
+        clearcoat_roughness: 0.0625.into(),
+        sheen_color: grey(0.25),
+        sheen_roughness: 0.75.into(),
+        anisotropy: 0.5.into(),
+        anisotropy_rotation: std::f64::consts::FRAC_PI_2.into(),
+        ..PrincipledRecipe::new(grey(0.5), [grey(0.0), grey(1.0)])
+    };
+    assert_eq!(*car, expected);
+    let Some(LaneValues::Uniform(absorption)) = material("car").media.inside else {
+        panic!("{:?}", material("car").media)
+    };
+    // −ln .5/.1 m.
+    assert!((absorption - 6.931_472).abs() < 1e-6);
+}
+
+#[test]
 fn measured_surfaces_come_from_their_file() {
     let Recipe::Measured(table) = recipe("blind") else {
         panic!("no table")
@@ -257,6 +320,31 @@ fn what_is_wrong_is_told_at_its_line() {
             "expected an absorption such as \"3 1/m\"",
         ),
         (
+            "model = \"conductor\"\nmetal = \"glod\"",
+            "scene.toml:5:9",
+            "did you mean \"gold\"?",
+        ),
+        (
+            "model = \"conductor\"\nmetal = \"gold\"\nk = 2",
+            "scene.toml:6:5",
+            "only beside `eta`",
+        ),
+        (
+            "model = \"dielectric\"\nglass = \"water\"\nior = 1.33",
+            "scene.toml:6:7",
+            "exclude each other",
+        ),
+        (
+            "model = \"principled\"\nbase_color = 0.5\nclearcoat_roughness = 2",
+            "scene.toml:6:23",
+            "clearcoat_roughness must lie between 0 and 1",
+        ),
+        (
+            "model = \"principled\"\nbase_color = 0.5\nattenuation_color = 0\nattenuation_distance = 1",
+            "scene.toml:6:21",
+            "above 0 and up to 1",
+        ),
+        (
             "model = \"radiance-metal\"\ncolor = 0.5\nroughness = 2",
             "scene.toml:6:13",
             "roughness must lie between",
@@ -335,7 +423,8 @@ fn every_model_lists_its_keys() {
     assert_eq!(key("alpha").one_of, ["alpha", "alpha_x"]);
     assert_eq!(key("alpha_y").beside, Some("alpha_x"));
     assert_eq!(key("distribution").default, Some("\"ggx\""));
-    assert!(key("eta").required && key("eta").doc.contains("0 to 1000"));
+    assert_eq!(key("eta").one_of, ["metal", "eta"]);
+    assert!(key("eta").doc.contains("0 to 1000") && !key("eta").required);
     let loaded = load(EVERY_KEY).description;
     assert!(models.len() > 11 && loaded.materials.len() > models.len());
 }

@@ -10,7 +10,7 @@ mod texture;
 pub use bitmap::{Bitmap, BitmapError, Interpolation, Texels, Wrap, linear_from_srgb};
 pub use media::Media;
 pub use prepared::PreparedRecipe;
-pub use recipe::{RadianceKind, Recipe, Role, Roughness, Turn, Turned};
+pub use recipe::{PrincipledRecipe, RadianceKind, Recipe, Role, Roughness, Turn, Turned};
 pub use scalar::{Picture, Scalar};
 pub use texture::{ColorLanes, Hue, Pattern, Site, Texture, Tint};
 
@@ -137,6 +137,16 @@ impl Material {
         let tints = self.tints().into_iter().map(|tint| &tint.textures);
         let opacity = self.opacity.as_ref().map(|opacity| &opacity.textures);
         tints.chain(opacity).flatten()
+    }
+
+    /// Whether anything of it is laid by texture coordinates.
+    pub fn needs_coordinates(&self) -> bool {
+        let pictures = match &self.model {
+            Model::Recipe(recipe) => recipe.recipe().all_numbers(),
+            _ => vec![],
+        };
+        let laid = |texture: &Texture| texture.pattern != Pattern::VertexColor;
+        self.textures().any(laid) || pictures.iter().any(|number| number.picture.is_some())
     }
 
     /// Whether single directions are all that it couples, which next-event estimation cannot find.

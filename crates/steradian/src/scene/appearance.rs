@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::material::Bitmap;
-use crate::spectrum::LaneValues;
+use crate::spectrum::{Curve, LaneValues};
 
 /// Lanes at a point of a surface: `factor` times what every texture says there.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,43 @@ impl Placement {
     pub fn at(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         self.0.map(|[a, b, c]| a * u + b * v + c)
     }
+}
+
+/// Absorption in 1/m of a medium that leaves this part of the light after a distance: −ln(c)/d. `None` if a value is not above 0
+/// and at most 1, or the distance not above 0.
+///
+/// ```
+/// # use steradian::scene::description::{LaneValues, absorption_of_attenuation};
+/// let left = LaneValues::Rgb([1.0, 0.5, 0.25]);
+/// let Some(LaneValues::Rgb([red, green, blue])) = absorption_of_attenuation(&left, 2.0) else { panic!() };
+/// assert_eq!(red, 0.0);
+/// assert!((green - 0.346_574).abs() < 1e-6 && (blue - 2.0 * green).abs() < 1e-15);
+/// ```
+pub fn absorption_of_attenuation(left: &LaneValues, distance: f64) -> Option<LaneValues> {
+    let absorption = |value: f64| {
+        let possible = value > 0.0 && value <= 1.0 && distance > 0.0;
+        possible.then(|| (-libm::log(value) / distance).max(0.0))
+    };
+    Some(match left {
+        LaneValues::Uniform(value) => LaneValues::Uniform(absorption(*value)?),
+        LaneValues::Rgb([r, g, b]) => {
+            LaneValues::Rgb([absorption(*r)?, absorption(*g)?, absorption(*b)?])
+        }
+        LaneValues::Bands(bands) => {
+            let bands = bands.iter();
+            let bands = bands.map(|(name, value)| Some((name.clone(), absorption(*value)?)));
+            LaneValues::Bands(bands.collect::<Option<_>>()?)
+        }
+        LaneValues::Curve { curve, watts } => {
+            let samples = curve.wavelengths().iter().zip(curve.values());
+            let samples = samples.map(|(&nm, &value)| Some((nm, absorption(value)?)));
+            let samples = samples.collect::<Option<Vec<_>>>()?;
+            LaneValues::Curve {
+                curve: Arc::new(Curve::new(samples, curve.beyond()).ok()?),
+                watts: *watts,
+            }
+        }
+    })
 }
 
 /// The part of the light that a surface stops; the rest passes straight through.

@@ -5,18 +5,21 @@
 
 use std::sync::Arc;
 
-pub use super::appearance::{Opacity, Pattern, Placement, Texture, Varying};
+pub use super::appearance::{
+    Opacity, Pattern, Placement, Texture, Varying, absorption_of_attenuation,
+};
 pub use crate::brdf::Slopes;
 use crate::geometry::{Point, Transform, Vector};
 pub use crate::material::{
-    Bitmap, Interpolation, Media, Picture, RadianceKind, Recipe, Roughness, Scalar, Texels, Wrap,
+    Bitmap, Interpolation, Media, Picture, PrincipledRecipe, RadianceKind, Recipe, Roughness,
+    Scalar, Texels, Wrap,
 };
 use crate::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
     LuminousFlux, LuminousIntensity, Radiance,
 };
 pub use crate::sensor::{Bins, Fisheye, FluxOf, Projection, Response};
-pub use crate::spectrum::LaneValues;
+pub use crate::spectrum::{Glass, LaneValues, Metal};
 pub use crate::time::Schedule;
 
 /// Everything a run needs to know about a scene.
@@ -118,6 +121,13 @@ pub enum MaterialModel {
         of: Vec<String>,
         /// Their shares of the area; what is left is black.
         weights: Vec<f64>,
+    },
+    /// A named metal.
+    Metal {
+        /// Which.
+        metal: Metal,
+        /// None for a polished one.
+        roughness: Option<Roughness>,
     },
     /// Any other model.
     Recipe(Recipe<Varying, Scalar>),

@@ -115,8 +115,14 @@ fn check_textures(
         .iter()
         .flat_map(|emission| &emission.textures);
     let of_emission = emission.map(|texture| texture.pattern == description::Pattern::VertexColor);
-    let of_materials = ids.flat_map(|id| materials.materials[id.0 as usize].1.textures());
-    let of_materials = of_materials.map(|texture| texture.pattern == Pattern::VertexColor);
+    let of_materials = ids.flat_map(|id| {
+        let material = &materials.materials[id.0 as usize].1;
+        let mut textures = material.textures();
+        let colored = textures.any(|texture| texture.pattern == Pattern::VertexColor);
+        let laid = material.needs_coordinates();
+        [(colored, true), (laid, false)]
+    });
+    let of_materials = of_materials.filter_map(|(present, colored)| present.then_some(colored));
     for (key, vertex_color) in of_materials
         .map(|vertex_color| ("material", vertex_color))
         .chain(of_emission.map(|vertex_color| ("emission", vertex_color)))

@@ -95,8 +95,12 @@ pub(super) fn one_sided(
         MaterialModel::Recipe(recipe) => {
             Model::Recipe(Arc::new(recipes::prepare(recipe, lanes, curves)?))
         }
+        MaterialModel::Metal { metal, roughness } => {
+            let recipe = recipes::metal(*metal, *roughness, lanes)?;
+            Model::Recipe(Arc::new(recipes::prepare(&recipe, lanes, curves)?))
+        }
         MaterialModel::Mixture { of, weights } => {
-            let recipe = mixtures::recipe(of, weights, all)?;
+            let recipe = mixtures::recipe(of, weights, all, lanes)?;
             Model::Recipe(Arc::new(recipes::prepare(&recipe, lanes, curves)?))
         }
         MaterialModel::TwoSided { .. } if description.opacity.is_some() => {

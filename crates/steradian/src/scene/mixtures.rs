@@ -2,13 +2,15 @@
 
 use super::Fault;
 use super::description::{MaterialDescription, MaterialModel, Recipe};
-use super::recipes::Stated;
+use super::recipes::{self, Stated};
+use crate::spectrum::Lanes;
 
 /// The recipe of these materials side by side.
 pub(super) fn recipe(
     of: &[String],
     weights: &[f64],
     all: &[MaterialDescription],
+    lanes: &Lanes,
 ) -> Result<Stated, Fault> {
     if of.is_empty() || of.len() != weights.len() {
         let message = format!(
@@ -18,14 +20,14 @@ pub(super) fn recipe(
         );
         return Err(("weights", message));
     }
-    let parts = of.iter().map(|name| part(name, all));
+    let parts = of.iter().map(|name| part(name, all, lanes));
     Ok(Recipe::Mixture {
         parts: parts.collect::<Result<_, _>>()?,
         weights: weights.to_vec(),
     })
 }
 
-fn part(name: &str, all: &[MaterialDescription]) -> Result<Stated, Fault> {
+fn part(name: &str, all: &[MaterialDescription], lanes: &Lanes) -> Result<Stated, Fault> {
     let named = all.iter().find(|material| material.name == name);
     let material = named.ok_or_else(|| ("of", format!("there is no material `{name}`")))?;
     if material.opacity.is_some() || !material.media.is_clear() {
@@ -34,6 +36,7 @@ fn part(name: &str, all: &[MaterialDescription]) -> Result<Stated, Fault> {
     }
     match &material.model {
         MaterialModel::Recipe(recipe) => Ok(recipe.clone()),
+        MaterialModel::Metal { metal, roughness } => recipes::metal(*metal, *roughness, lanes),
         MaterialModel::Lambertian { reflectance } => Ok(Recipe::Lambertian {
             reflectance: reflectance.clone(),
         }),
@@ -59,7 +62,7 @@ mod tests {
 
     fn mixed(of: &[&str], weights: &[f64], all: &[MaterialDescription]) -> Result<Stated, Fault> {
         let of: Vec<String> = of.iter().map(|name| name.to_string()).collect();
-        recipe(&of, weights, all)
+        recipe(&of, weights, all, &Lanes::rgb())
     }
 
     #[test]

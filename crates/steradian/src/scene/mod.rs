@@ -253,6 +253,7 @@ fn stops_light(material: &MaterialDescription) -> bool {
             MaterialModel::Lambertian { .. }
             | MaterialModel::Mirror { .. }
             | MaterialModel::Mixture { .. }
+            | MaterialModel::Metal { .. }
             | MaterialModel::TwoSided { .. } => true,
         }
 }

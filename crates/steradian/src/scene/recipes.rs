@@ -5,11 +5,11 @@ use std::convert::Infallible;
 use super::Fault;
 use super::curves::Curves;
 use super::description::{LaneValues, Scalar, Varying};
-use super::materials::{hue, tint};
+use super::materials::{hue, textures, tint};
 use crate::brdf::measured::Reading;
 use crate::brdf::{Measured, ModelError};
-use crate::material::{Hue, PreparedRecipe, Recipe, Role, Tint, Turn};
-use crate::spectrum::Lanes;
+use crate::material::{Hue, PreparedRecipe, Recipe, Role, Roughness, Tint, Turn};
+use crate::spectrum::{Curve, Lanes, Metal};
 
 /// Distance in nm of the wavelengths at which a model is checked.
 const STEP: f64 = 5.0;
@@ -38,6 +38,29 @@ pub(super) fn prepare(
         values.brdf(Some(&base)).map_err(fault)?;
     }
     Ok(PreparedRecipe::new(recipe.clone(), base))
+}
+
+/// A metal by name, in what the lanes of the run can be told by.
+pub(super) fn metal(
+    metal: Metal,
+    roughness: Option<Roughness>,
+    lanes: &Lanes,
+) -> Result<Stated, Fault> {
+    let found = metal.in_lanes(lanes);
+    let found = found.map_err(|error| ("metal", error.to_string()))?;
+    let [eta, kappa] = found.map(|part| match part.curve {
+        Some(curve) => Varying::from(LaneValues::table(Curve::clone(&curve))),
+        None if lanes.is_rgb() => {
+            let [r, g, b, _] = part.lanes;
+            LaneValues::Rgb([r, g, b]).into()
+        }
+        None => LaneValues::Uniform(part.lanes[0]).into(),
+    });
+    Ok(Recipe::Conductor {
+        eta,
+        kappa,
+        roughness,
+    })
 }
 
 /// The wavelengths of the run, or one that stands for none.
@@ -84,13 +107,7 @@ impl Turn<'_, Varying, Scalar> for InLanes<'_> {
     fn lanes(&mut self, key: &'static str, role: Role, values: &Varying) -> Result<Tint, Fault> {
         let found = match role {
             Role::Share => tint(values, self.lanes, self.curves),
-            Role::Index => {
-                let hue = coefficient(&values.factor, self.lanes, self.curves);
-                hue.map(|hue| Tint {
-                    hue,
-                    textures: vec![],
-                })
-            }
+            Role::Coefficient => self.factor(values),
         };
         found.map_err(|message| (key, message))
     }
@@ -116,6 +133,15 @@ impl Turn<'_, Varying, Scalar> for InLanes<'_> {
         table
             .in_lanes(lanes)
             .ok_or_else(|| ("file", unknown.into()))
+    }
+}
+
+impl InLanes<'_> {
+    fn factor(&mut self, values: &Varying) -> Result<Tint, String> {
+        Ok(Tint {
+            hue: coefficient(&values.factor, self.lanes, self.curves)?,
+            textures: textures(&values.textures, self.lanes, self.curves)?,
+        })
     }
 }
 

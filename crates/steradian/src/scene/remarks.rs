@@ -47,7 +47,9 @@ fn factors(model: &MaterialModel) -> Vec<&LaneValues> {
             .into_iter()
             .map(|lanes| &lanes.factor)
             .collect(),
-        MaterialModel::TwoSided { .. } | MaterialModel::Mixture { .. } => vec![],
+        MaterialModel::TwoSided { .. }
+        | MaterialModel::Mixture { .. }
+        | MaterialModel::Metal { .. } => vec![],
     }
 }
 

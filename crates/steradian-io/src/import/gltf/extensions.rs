@@ -5,28 +5,28 @@ use super::notes::Notes;
 use super::schema::Root;
 
 /// Read as they are meant, or told of where they are met.
-const READ: [&str; 8] = [
+const READ: [&str; 14] = [
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 ];
 
-/// Finer points of reflection, for which diffuse reflection stands.
-const REFLECTION: [&str; 9] = [
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
+/// Finer points of reflection that are left out.
+const REFLECTION: [&str; 3] = [
     "KHR_materials_diffuse_transmission",
     "KHR_materials_dispersion",
-    "KHR_materials_ior",
     "KHR_materials_iridescence",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_volume",
 ];
 
 /// Nothing to do with light.
@@ -48,7 +48,9 @@ pub(super) fn check(root: &Root, notes: &mut Notes) -> Result<(), GltfError> {
     let used = root.extensions_used.iter().chain(&root.extensions_required);
     for name in used {
         if is(&REFLECTION, name) {
-            notes.tell(format!("{name} is approximated by diffuse reflection"));
+            notes.tell(format!(
+                "{name} is left out: its surfaces reflect without it"
+            ));
         } else if !known(name) {
             notes.tell(format!("{name} is not read"));
         }

@@ -1,9 +1,7 @@
-//! Materials: diffuse reflection, opacity and emission.
+//! Materials: reflection, opacity and emission.
 //!
-//! The base colour, factor × texture × vertex colour, is taken for the reflectance of a Lambertian surface, also of
-//! metals and glossy surfaces: their reflectance is about their base colour, but not its direction. Specular-glossiness
-//! reflects ρ = c_d (1 − max c_s) + c_s, with c_s left out where c_d is a texture. What is transmitted passes straight
-//! through, uncoloured: opacity is α (1 − t), 1 − t where the alpha mode is opaque, and α against the cutoff for a mask.
+//! Opacity is α where the alpha mode is to blend, and α against the cutoff for a mask. How surfaces reflect is in
+//! [`reflection`](super::reflection).
 //!
 //! Emission is a luminance, L = strength × Y(r, g, b) in cd/m² with Y = 0.2126 r + 0.7152 g + 0.0722 b of the linear
 //! emissive factor, and the factor's colour; the texture multiplies it. Surfaces emit to both sides if they are
@@ -13,14 +11,15 @@ use std::collections::HashMap;
 
 use steradian::quantity::{Amount, Luminance};
 use steradian::scene::description::{
-    EmissionAmount, EmissionDescription, LaneValues, MaterialDescription, MaterialModel, Media,
-    Opacity, Pattern, Placement, Texture, Varying,
+    EmissionAmount, EmissionDescription, LaneValues, MaterialDescription, Opacity, Pattern,
+    Placement, Texture,
 };
 
 use super::document::{Document, part};
 use super::error::GltfError;
 use super::names::Names;
 use super::notes::Notes;
+use super::reflection::{Base, textures_of};
 use super::schema::{Material, TextureInfo};
 use super::textures::{Textures, coordinate_set};
 
@@ -64,11 +63,8 @@ impl<'d> Materials<'d> {
     /// The set of texture coordinates that a material needs.
     pub fn coordinate_set(&self, index: Option<usize>) -> Option<usize> {
         let material = self.document.root.materials.get(index?)?;
-        let infos = [
-            Base::of(material).texture,
-            material.emissive_texture.as_ref(),
-        ];
-        infos.into_iter().flatten().map(coordinate_set).next()
+        let mut infos = textures_of(material).into_iter();
+        infos.next().map(coordinate_set)
     }
 
     /// A material on vertices with these attributes.
@@ -118,7 +114,7 @@ impl<'d> Materials<'d> {
             name: name.clone(),
             model: reader.model()?,
             opacity: reader.opacity()?,
-            media: Media::default(),
+            media: reader.media(),
         });
         Ok(Finish {
             material: name,
@@ -133,12 +129,8 @@ fn note(material: &Material, place: &str, notes: &mut Notes) {
     if extensions.unlit.is_some() {
         let text = "colours without light (KHR_materials_unlit) are taken for diffuse reflectances";
         notes.count("materials", text, place);
-    } else {
-        let text = "metal and gloss are taken for diffuse reflection of the base colour";
-        notes.count("materials", text, place);
-    }
-    if extensions.transmission.is_some() {
-        let text = "transmitted light passes straight through, uncoloured";
+    } else if extensions.specular_glossiness.is_some() {
+        let text = "gloss of KHR_materials_pbrSpecularGlossiness is taken for diffuse reflection";
         notes.count("materials", text, place);
     }
     if !material.double_sided {
@@ -147,59 +139,18 @@ fn note(material: &Material, place: &str, notes: &mut Notes) {
     }
 }
 
-/// Base colour and alpha.
-struct Base<'m> {
-    factor: [f64; 4],
-    texture: Option<&'m TextureInfo>,
-}
-
-impl<'m> Base<'m> {
-    fn of(material: &'m Material) -> Self {
-        if let Some(model) = &material.extensions.specular_glossiness {
-            let [r, g, b, alpha] = model.diffuse_factor.unwrap_or([1.0; 4]);
-            let specular = model.specular_factor.unwrap_or([1.0; 3]);
-            let texture = model.diffuse_texture.as_ref();
-            let rest = 1.0 - specular.into_iter().fold(0.0, f64::max);
-            let added = specular.map(|lane| if texture.is_some() { 0.0 } else { lane });
-            let [r, g, b] = [
-                r * rest + added[0],
-                g * rest + added[1],
-                b * rest + added[2],
-            ];
-            let factor = [r, g, b, alpha];
-            return Self { factor, texture };
-        }
-        let model = &material.pbr_metallic_roughness;
-        Self {
-            factor: model.base_color_factor.unwrap_or([1.0; 4]),
-            texture: model.base_color_texture.as_ref(),
-        }
-    }
-}
-
-struct Reader<'r, 'd> {
-    material: &'r Material,
+/// Reads one material.
+pub(super) struct Reader<'r, 'd> {
+    pub material: &'r Material,
     attributes: Attributes,
-    place: String,
-    textures: &'r mut Textures<'d>,
-    notes: &'r mut Notes,
+    pub place: String,
+    pub textures: &'r mut Textures<'d>,
+    pub notes: &'r mut Notes,
 }
 
 impl Reader<'_, '_> {
-    fn model(&mut self) -> Result<MaterialModel, GltfError> {
-        let base = Base::of(self.material);
-        let [r, g, b, _] = self.fractions(base.factor);
-        let textures = self.base_textures(&base)?;
-        Ok(MaterialModel::Lambertian {
-            reflectance: Varying {
-                factor: LaneValues::Rgb([r, g, b]),
-                textures,
-            },
-        })
-    }
-
     /// Factors lie between 0 and 1.
-    fn fractions(&mut self, factor: [f64; 4]) -> [f64; 4] {
+    pub fn fractions<const N: usize>(&mut self, factor: [f64; N]) -> [f64; N] {
         if factor.iter().any(|lane| !(0.0..=1.0).contains(lane)) {
             let text = "colours beyond 0 to 1 are cut off";
             self.notes.count("materials", text, &self.place);
@@ -207,7 +158,7 @@ impl Reader<'_, '_> {
         factor.map(|lane| lane.clamp(0.0, 1.0))
     }
 
-    fn base_textures(&mut self, base: &Base<'_>) -> Result<Vec<Texture>, GltfError> {
+    pub fn base_textures(&mut self, base: &Base<'_>) -> Result<Vec<Texture>, GltfError> {
         let mut textures = self.laid(base.texture)?;
         if self.attributes.colors {
             textures.push(Texture {
@@ -219,35 +170,29 @@ impl Reader<'_, '_> {
     }
 
     /// The texture, if there are coordinates to lay it by.
-    fn laid(&mut self, info: Option<&TextureInfo>) -> Result<Vec<Texture>, GltfError> {
-        let Some(info) = info else {
-            return Ok(vec![]);
-        };
-        if !self.attributes.coordinates {
+    pub fn laid(&mut self, info: Option<&TextureInfo>) -> Result<Vec<Texture>, GltfError> {
+        match info.filter(|_| self.has_coordinates(info)) {
+            Some(info) => Ok(vec![self.textures.texture(info, &self.place)?]),
+            None => Ok(vec![]),
+        }
+    }
+
+    /// Whether a texture can be laid; tells of those that cannot.
+    pub fn has_coordinates(&mut self, texture: Option<&TextureInfo>) -> bool {
+        if texture.is_some() && !self.attributes.coordinates {
             let text = "textures on surfaces without texture coordinates are left out";
             self.notes.count("materials", text, &self.place);
-            return Ok(vec![]);
         }
-        Ok(vec![self.textures.texture(info, &self.place)?])
+        self.attributes.coordinates
     }
 
     fn opacity(&mut self) -> Result<Option<Opacity>, GltfError> {
         let base = Base::of(self.material);
-        let transmission = self.material.extensions.transmission.as_ref();
-        let passed = transmission.map_or(0.0, |transmission| transmission.transmission_factor);
-        let stopped = 1.0 - passed.clamp(0.0, 1.0);
         let [_, _, _, alpha] = base.factor.map(|lane| lane.clamp(0.0, 1.0));
         let mode = self.material.alpha_mode.as_deref().unwrap_or("OPAQUE");
         let (factor, cutoff) = match mode {
             "MASK" => (alpha, Some(self.material.alpha_cutoff.unwrap_or(0.5))),
-            "BLEND" => (alpha * stopped, None),
-            "OPAQUE" if stopped < 1.0 => {
-                return Ok(Some(Opacity {
-                    factor: stopped,
-                    textures: vec![],
-                    cutoff: None,
-                }));
-            }
+            "BLEND" => (alpha, None),
             "OPAQUE" => return Ok(None),
             other => {
                 let fault = format!("there is no alpha mode {other:?}");

@@ -53,6 +53,7 @@ mod names;
 mod nodes;
 mod notes;
 mod primitives;
+mod reflection;
 mod scene;
 mod schema;
 mod textures;

@@ -124,6 +124,7 @@ objects! {
         base_color_texture: Option<TextureInfo>,
         metallic_factor: Option<f64>,
         roughness_factor: Option<f64>,
+        metallic_roughness_texture: Option<TextureInfo>,
     }
 
     EmissiveStrength { emissive_strength: Option<f64>, }
@@ -134,7 +135,42 @@ objects! {
         specular_factor: Option<[f64; 3]>,
     }
 
-    Transmission { transmission_factor: f64, }
+    Transmission { transmission_factor: f64, transmission_texture: Option<TextureInfo>, }
+
+    Volume {
+        thickness_factor: f64,
+        attenuation_distance: Option<f64>,
+        attenuation_color: Option<[f64; 3]>,
+    }
+
+    Ior { ior: Option<f64>, }
+
+    Specular {
+        specular_factor: Option<f64>,
+        specular_texture: Option<TextureInfo>,
+        specular_color_factor: Option<[f64; 3]>,
+        specular_color_texture: Option<TextureInfo>,
+    }
+
+    Clearcoat {
+        clearcoat_factor: f64,
+        clearcoat_texture: Option<TextureInfo>,
+        clearcoat_roughness_factor: f64,
+        clearcoat_roughness_texture: Option<TextureInfo>,
+    }
+
+    Sheen {
+        sheen_color_factor: [f64; 3],
+        sheen_color_texture: Option<TextureInfo>,
+        sheen_roughness_factor: f64,
+        sheen_roughness_texture: Option<TextureInfo>,
+    }
+
+    Anisotropy {
+        anisotropy_strength: f64,
+        anisotropy_rotation: f64,
+        anisotropy_texture: Option<TextureInfo>,
+    }
 
     TextureTransform {
         offset: [f64; 2],
@@ -199,5 +235,11 @@ extensions! {
         emissive_strength: EmissiveStrength = "KHR_materials_emissive_strength",
         specular_glossiness: SpecularGlossiness = "KHR_materials_pbrSpecularGlossiness",
         transmission: Transmission = "KHR_materials_transmission",
+        volume: Volume = "KHR_materials_volume",
+        ior: Ior = "KHR_materials_ior",
+        specular: Specular = "KHR_materials_specular",
+        clearcoat: Clearcoat = "KHR_materials_clearcoat",
+        sheen: Sheen = "KHR_materials_sheen",
+        anisotropy: Anisotropy = "KHR_materials_anisotropy",
     }
 }

@@ -14,13 +14,13 @@
 //! which is what the text of the extension and the exporter of Khronos for Blender say; the shader printed with the
 //! extension turns the other way.
 //!
-//! All pictures that are used hold colours, in sRGB. `minFilter` has no meaning for rays.
+//! Pictures of colours are in sRGB, those of numbers are linear. `minFilter` has no meaning for rays.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use steradian::material::{Bitmap, Interpolation, Wrap};
-use steradian::scene::description::{Pattern, Placement, Texture};
+use steradian::scene::description::{Pattern, Picture, Placement, Texture};
 
 use super::document::{Document, part};
 use super::error::GltfError;
@@ -35,8 +35,8 @@ const MIRRORED_REPEAT: u32 = 33_648;
 /// More texels than this, in all pictures together, are refused.
 const MOST_TEXELS: usize = 1 << 31;
 
-/// Picture, whether it is read between texels, and how it continues along u and v.
-type Key = (usize, bool, [u32; 2]);
+/// Picture, how it is encoded, whether it is read between texels, and how it continues along u and v.
+type Key = (usize, Encoding, bool, [u32; 2]);
 
 /// The textures of a file, read when first used.
 pub(super) struct Textures<'d> {
@@ -65,24 +65,32 @@ impl<'d> Textures<'d> {
 
     /// The texture that `place` names.
     pub fn texture(&mut self, info: &TextureInfo, place: &str) -> Result<Texture, GltfError> {
-        let transform = info.extensions.transform.as_ref();
-        let placement = transform.map(placement).unwrap_or_default();
-        if !placement
-            .0
-            .as_flattened()
-            .iter()
-            .all(|entry| entry.is_finite())
-        {
-            return Err(GltfError::at(
-                place,
-                "its KHR_texture_transform is not finite",
-            ));
-        }
-        let pattern = Pattern::Bitmap(self.bitmap(info.index, place)?);
-        Ok(Texture { pattern, placement })
+        Ok(Texture {
+            placement: placed(info, place)?,
+            pattern: Pattern::Bitmap(self.bitmap(info.index, Encoding::Srgb, place)?),
+        })
     }
 
-    fn bitmap(&mut self, index: usize, place: &str) -> Result<Arc<Bitmap>, GltfError> {
+    /// The channel of a picture of numbers that `place` names.
+    pub fn channel(
+        &mut self,
+        info: &TextureInfo,
+        channel: usize,
+        place: &str,
+    ) -> Result<Picture, GltfError> {
+        Ok(Picture {
+            placement: placed(info, place)?.0,
+            bitmap: self.bitmap(info.index, Encoding::Linear, place)?,
+            channel,
+        })
+    }
+
+    fn bitmap(
+        &mut self,
+        index: usize,
+        encoding: Encoding,
+        place: &str,
+    ) -> Result<Arc<Bitmap>, GltfError> {
         let root = &self.document.root;
         let texture = part(&root.textures, index, "texture", place)?;
         let place = format!("textures[{index}]");
@@ -94,18 +102,18 @@ impl<'d> Textures<'d> {
         })?;
         let sampler = texture.sampler;
         let sampler = sampler.map(|sampler| part(&root.samplers, sampler, "sampler", &place));
-        let key = key(source, sampler.transpose()?);
+        let key = key(source, encoding, sampler.transpose()?);
         if let Some(bitmap) = self.bitmaps.get(&key) {
             return Ok(Arc::clone(bitmap));
         }
-        let mut bitmap = self.picture(source, &place)?;
+        let mut bitmap = self.picture(source, encoding, &place)?;
         self.texels += bitmap.texels().len();
         if self.texels > MOST_TEXELS {
             let (what, limit) = ("texels", MOST_TEXELS);
             return Err(GltfError::TooLarge { what, limit });
         }
-        bitmap.wrap = key.2.map(wrap);
-        bitmap.interpolation = if key.1 {
+        bitmap.wrap = key.3.map(wrap);
+        bitmap.interpolation = if key.2 {
             Interpolation::Bilinear
         } else {
             Interpolation::Nearest
@@ -115,10 +123,10 @@ impl<'d> Textures<'d> {
         Ok(bitmap)
     }
 
-    fn picture(&self, index: usize, place: &str) -> Result<Bitmap, GltfError> {
+    fn picture(&self, index: usize, encoding: Encoding, place: &str) -> Result<Bitmap, GltfError> {
         let named = part(&self.document.root.images, index, "image", place)?;
         let place = format!("images[{index}]");
-        let read = |bytes: &[u8]| image::read(bytes, Encoding::Srgb);
+        let read = |bytes: &[u8]| image::read(bytes, encoding);
         let bitmap = match (&named.uri, named.buffer_view) {
             (_, Some(view)) => read(self.document.view(view, &place)?),
             (Some(uri), None) => read(&self.resources.read(uri, &place)?),
@@ -128,16 +136,29 @@ impl<'d> Textures<'d> {
     }
 }
 
-fn key(image: usize, sampler: Option<&schema::Sampler>) -> Key {
+/// How a texture is laid.
+fn placed(info: &TextureInfo, place: &str) -> Result<Placement, GltfError> {
+    let transform = info.extensions.transform.as_ref();
+    let placement = transform.map(placement).unwrap_or_default();
+    let mut entries = placement.0.as_flattened().iter();
+    if !entries.all(|entry| entry.is_finite()) {
+        let fault = "its KHR_texture_transform is not finite";
+        return Err(GltfError::at(place, fault));
+    }
+    Ok(placement)
+}
+
+fn key(image: usize, encoding: Encoding, sampler: Option<&schema::Sampler>) -> Key {
     let Some(sampler) = sampler else {
-        return (image, true, [0; 2]);
+        return (image, encoding, true, [0; 2]);
     };
     let known = |code: Option<u32>| {
         code.filter(|code| [CLAMP_TO_EDGE, MIRRORED_REPEAT].contains(code))
             .unwrap_or(0)
     };
     let wraps = [sampler.wrap_s, sampler.wrap_t].map(known);
-    (image, sampler.mag_filter != Some(NEAREST), wraps)
+    let between = sampler.mag_filter != Some(NEAREST);
+    (image, encoding, between, wraps)
 }
 
 fn wrap(code: u32) -> Wrap {

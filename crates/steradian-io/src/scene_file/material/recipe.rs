@@ -2,9 +2,10 @@
 
 use steradian::quantity::Angle;
 use steradian::scene::description::{
-    LaneValues, RadianceKind, Recipe, Roughness, Scalar, Slopes, Varying,
+    Glass, LaneValues, RadianceKind, Recipe, Roughness, Scalar, Slopes, Varying,
 };
 
+use super::{Named, principled};
 use crate::import::bsdf;
 use crate::scene_file::fields::Fields;
 use crate::scene_file::value::choices;
@@ -48,6 +49,7 @@ pub(super) fn read(kind: &str, fields: &Fields<'_>) -> Option<Recipe<Varying, Sc
         "plastic" | "rough-plastic" | "ward" => coated(kind, fields),
         "radiance-plastic" | "radiance-metal" | "radiance-trans" => radiance(kind, fields),
         "measured" => measured(fields),
+        "principled" => principled::read(fields),
         _ => interface(kind, fields),
     }
 }
@@ -67,10 +69,7 @@ fn measured(fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>> {
 
 /// Models of what light meets where two media touch.
 fn interface(kind: &str, fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>> {
-    let roughness = match kind {
-        "rough-conductor" | "rough-dielectric" => roughness(fields).map(Some),
-        _ => Some(None),
-    };
+    let roughness = roughness_of(kind, fields);
     match kind {
         "conductor" | "rough-conductor" => {
             let [eta, kappa] = ["eta", "k"].map(|key| fields.get::<LaneValues>(key));
@@ -81,7 +80,12 @@ fn interface(kind: &str, fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>>
             })
         }
         "dielectric" | "rough-dielectric" => {
-            let [ior, exterior_ior] = ["ior", "exterior_ior"].map(|key| positive(fields, key));
+            let named = |Named(glass): Named<Glass>| glass.index();
+            let ior = match fields.has("glass") {
+                true => fields.get("glass").map(named),
+                false => positive(fields, "ior"),
+            };
+            let exterior_ior = positive(fields, "exterior_ior");
             Some(Recipe::Dielectric {
                 ior: ior?,
                 exterior_ior: exterior_ior?,
@@ -110,10 +114,7 @@ fn coated(kind: &str, fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>> {
         });
     }
     let ior = fields.get("ior");
-    let roughness = match kind {
-        "rough-plastic" => roughness(fields).map(Some),
-        _ => Some(None),
-    };
+    let roughness = roughness_of(kind, fields);
     Some(Recipe::Plastic {
         ior: ior?,
         diffuse: diffuse?,
@@ -151,6 +152,14 @@ fn radiance(kind: &str, fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>> 
 fn alpha(fields: &Fields<'_>) -> Option<[f64; 2]> {
     let [both, along_x, along_y] = ["alpha", "alpha_x", "alpha_y"].map(|key| fields.get(key));
     Some([along_x.or(both)?, along_y.or(both)?])
+}
+
+/// That of a kind which is rough, or that of a smooth one.
+pub(super) fn roughness_of(kind: &str, fields: &Fields<'_>) -> Option<Option<Roughness>> {
+    match kind.starts_with("rough-") {
+        true => roughness(fields).map(Some),
+        false => Some(None),
+    }
 }
 
 fn roughness(fields: &Fields<'_>) -> Option<Roughness> {

@@ -1,9 +1,10 @@
 //! Keys of materials, by model.
 
-use steradian::quantity::{Absorption, Angle, Quantity};
+use steradian::quantity::{Absorption, Angle, Length, Quantity};
 
-use super::{MATERIAL, OPACITY, VARYING};
+use super::{MATERIAL, NUMBER, OPACITY, VARYING};
 use crate::scene_file::keys::{Family, Key, Kind, Value};
+use crate::scene_file::value::Read;
 
 const OPACITY_KEY: Key = Key::optional(
     "opacity",
@@ -22,7 +23,14 @@ const SPECULAR_REFLECTANCE: Key = Key::default(
     "Part of the arriving flux that is reflected, 0 to 1",
 );
 
-const ETA: Key = Key::required(
+const METAL: Key = Key::one_of(
+    "index",
+    "metal",
+    METALS,
+    "A metal by name, with its index of refraction by wavelength",
+);
+const ETA: Key = Key::one_of(
+    "index",
     "eta",
     Value::Lanes,
     "Real part of the index of refraction, 0 to 1000",
@@ -31,9 +39,17 @@ const K: Key = Key::required(
     "k",
     Value::Lanes,
     "Imaginary part of the index of refraction, 0 to 1000",
-);
+)
+.beside("eta");
 
-const IOR: Key = Key::required(
+const GLASS: Key = Key::one_of(
+    "index",
+    "glass",
+    GLASSES,
+    "A clear medium by name: its index at 587.6 nm, at all wavelengths, and what water absorbs",
+);
+const IOR: Key = Key::one_of(
+    "index",
     "ior",
     Value::Number,
     "Index of refraction on the side away from the normal; .1 to 10 times that before it",
@@ -112,6 +128,9 @@ const LATER_LIGHT: Key = Key::default(
 );
 
 const SLOPES: Value = Value::Choice(&["ggx", "beckmann"]);
+
+const METALS: Value = Value::Choice(&["silver", "aluminium", "gold", "chromium", "copper", "iron"]);
+const GLASSES: Value = Value::Choice(&["water", "fused-silica", "n-bk7", "n-sf11"]);
 
 /// One coefficient, or one a lane in 1/m.
 pub const ABSORPTION: Value = Value::Either(&[Value::Quantity(&[Absorption::TABLE]), Value::Lanes]);
@@ -197,11 +216,12 @@ pub const MATERIALS: Family = Family {
                 OPACITY_KEY,
             ],
         ),
-        Kind::new("conductor", "Polished metal", &[ETA, K, OPACITY_KEY]),
+        Kind::new("conductor", "Polished metal", &[METAL, ETA, K, OPACITY_KEY]),
         Kind::new(
             "rough-conductor",
             "Rough metal",
             &[
+                METAL,
                 ETA,
                 K,
                 ALPHA,
@@ -216,6 +236,7 @@ pub const MATERIALS: Family = Family {
             "dielectric",
             "A smooth interface of two dielectrics, such as the surface of water or glass",
             &[
+                GLASS,
                 IOR,
                 EXTERIOR_IOR,
                 ABSORPTION_KEY,
@@ -227,6 +248,7 @@ pub const MATERIALS: Family = Family {
             "rough-dielectric",
             "A rough interface of two dielectrics, such as ground glass",
             &[
+                GLASS,
                 IOR,
                 EXTERIOR_IOR,
                 ABSORPTION_KEY,
@@ -349,7 +371,76 @@ pub const MATERIALS: Family = Family {
                 OPACITY_KEY,
             ],
         ),
+        Kind::new(
+            "principled",
+            "The metallic-roughness material of glTF with its extensions",
+            &[
+                Key::required(
+                    "base_color",
+                    VARYING,
+                    "Reflectance below the gloss, highlights of a metal, tint of transmission, 0 to 1",
+                ),
+                Key::default("metallic", NUMBER, "0", "Share of metal, 0 to 1"),
+                Key::default(
+                    "roughness",
+                    NUMBER,
+                    "1",
+                    "Root of the width of the facets' slopes, 0 to 1",
+                ),
+                Key::default("ior", Value::Number, "1.5", "Index of refraction, 1 to 10"),
+                Key::default(
+                    "specular",
+                    NUMBER,
+                    "1",
+                    "Strength of a dielectric's highlights, 0 to 1",
+                ),
+                Key::default(
+                    "specular_color",
+                    VARYING,
+                    "1",
+                    "Their colour along the normal, 0 or more",
+                ),
+                Key::optional(
+                    "transmission",
+                    NUMBER,
+                    "Share of the dielectric that lets light through instead of scattering it, 0 to 1",
+                ),
+                Key::default(
+                    "thin",
+                    Value::Flag,
+                    "true",
+                    "Whether it is a sheet without inside; false for the surface of a solid",
+                ),
+                Key::optional(
+                    "attenuation_color",
+                    Value::Lanes,
+                    "What is left of white light after `attenuation_distance` inside a solid, above 0 to 1",
+                ),
+                Key::required(
+                    "attenuation_distance",
+                    Length::VALUE,
+                    "The distance at which `attenuation_color` is left",
+                )
+                .beside("attenuation_color"),
+                Key::default("clearcoat", NUMBER, "0", "Strength of a clear coat, 0 to 1"),
+                Key::default("clearcoat_roughness", NUMBER, "0", "Its roughness, 0 to 1"),
+                Key::default("sheen_color", VARYING, "0", "Colour of a sheen, 0 to 1"),
+                Key::default("sheen_roughness", NUMBER, "0", "Its roughness, 0 to 1"),
+                Key::default(
+                    "anisotropy",
+                    NUMBER,
+                    "0",
+                    "How much wider the slopes are along the tangent, 0 to 1",
+                ),
+                Key::default(
+                    "anisotropy_rotation",
+                    Value::Quantity(&[Angle::TABLE]),
+                    "\"0 deg\"",
+                    "From the first tangent to that one",
+                ),
+                OPACITY_KEY,
+            ],
+        ),
         Kind::not_yet("glass"),
-        Kind::not_yet("principled"),
     ],
 };

@@ -136,6 +136,37 @@ pub const VARYING: Value = Value::Either(&[
     Value::Table(&VERTEX_COLOR),
 ]);
 
+/// A picture of a number.
+pub const NUMBER_TEXTURE: Record = Record {
+    noun: "a texture of a number",
+    keys: &[
+        Key::required(
+            "texture",
+            Value::File,
+            "A picture of linear numbers (PNG, JPEG, EXR, HDR)",
+        ),
+        Key::default(
+            "channel",
+            Value::Choice(&["red", "green", "blue", "alpha"]),
+            "\"red\"",
+            "The channel that holds the number",
+        ),
+        SCALE,
+        OFFSET,
+        WRAP,
+        INTERPOLATION,
+        Key::default(
+            "factor",
+            Value::Number,
+            "1",
+            "What the texture is multiplied by",
+        ),
+    ],
+};
+
+/// One number everywhere, or a texture.
+pub const NUMBER: Value = Value::Either(&[Value::Number, Value::Table(&NUMBER_TEXTURE)]);
+
 /// What varies over an emitting surface.
 pub const EMISSION_PATTERN: Value = Value::Either(&[
     Value::Table(&EMISSION_TEXTURE),

@@ -7,9 +7,11 @@
 //! | `[f64; 4]`, `f64` | at a point of a surface: [`brdf`](Recipe::brdf) |
 
 mod model;
+mod principled;
 mod questions;
 mod turn;
 
+pub use principled::PrincipledRecipe;
 pub use turn::{Role, Turn, Turned};
 
 use crate::brdf::{Measured, Slopes};
@@ -113,6 +115,8 @@ pub enum Recipe<L, N> {
         /// Width of the lobe.
         roughness: N,
     },
+    /// glTF's material.
+    Principled(Box<PrincipledRecipe<L, N>>),
     /// Several models side by side.
     Mixture {
         /// The models.

@@ -21,6 +21,7 @@ impl Recipe<[f64; 4], f64> {
     /// If a parameter lies outside its range.
     pub fn brdf(&self, alike: Option<&Brdf>) -> Result<Brdf, ModelError> {
         Ok(match *self {
+            Self::Principled(ref recipe) => recipe.brdf()?,
             Self::Measured(ref table) => Brdf::Measured(table.clone()),
             Self::Mixture {
                 ref parts,

@@ -12,6 +12,7 @@ impl<L, N> Recipe<L, N> {
             | Self::Measured(_) => true,
             Self::Radiance { kind, .. } => matches!(kind, RadianceKind::Trans { .. }),
             Self::Mixture { parts, .. } => parts.iter().any(Self::transmits),
+            Self::Principled(recipe) => recipe.transmission.is_some(),
             _ => false,
         }
     }
@@ -44,6 +45,12 @@ impl<L, N> Recipe<L, N> {
             "alpha" => self.key_of_alpha(found),
             "weight" | "weights" => "weights",
             "transmitted specularity" => "transmitted_specularity",
+            "clearcoat roughness" => "clearcoat_roughness",
+            "sheen roughness" => "sheen_roughness",
+            "anisotropy rotation" => "anisotropy_rotation",
+            "base color" => "base_color",
+            "sheen color" => "sheen_color",
+            "specular color" => "specular_color",
             "diffuse and glossy reflectance" if matches!(self, Self::Radiance { .. }) => {
                 "specularity"
             }

@@ -10,8 +10,8 @@ use crate::brdf::Measured;
 pub enum Role {
     /// A part of the light, 0 to 1.
     Share,
-    /// The real or imaginary part of an index of refraction.
-    Index,
+    /// Part of an index of refraction, or a factor that may exceed 1.
+    Coefficient,
 }
 
 impl Role {
@@ -19,7 +19,7 @@ impl Role {
     pub fn limited(self, value: f64) -> f64 {
         match self {
             Self::Share => value.clamp(0.0, 1.0),
-            Self::Index => value.max(0.0),
+            Self::Coefficient => value.max(0.0),
         }
     }
 }
@@ -84,7 +84,7 @@ impl<L, N> Recipe<L, N> {
     /// # Errors
     /// The first that something cannot be turned for.
     pub fn turn<'a, T: Turn<'a, L, N>>(&'a self, with: &mut T) -> Turned<'a, T, L, N> {
-        use Role::{Index, Share};
+        use Role::{Coefficient, Share};
         Ok(match self {
             Self::Lambertian { reflectance } => Recipe::Lambertian {
                 reflectance: with.lanes("reflectance", Share, reflectance)?,
@@ -124,8 +124,8 @@ impl<L, N> Recipe<L, N> {
                 kappa,
                 roughness,
             } => Recipe::Conductor {
-                eta: with.lanes("eta", Index, eta)?,
-                kappa: with.lanes("k", Index, kappa)?,
+                eta: with.lanes("eta", Coefficient, eta)?,
+                kappa: with.lanes("k", Coefficient, kappa)?,
                 roughness: *roughness,
             },
             &Self::Dielectric {
@@ -141,7 +141,12 @@ impl<L, N> Recipe<L, N> {
                 ior: *ior,
                 transmittance: with.lanes("transmittance", Share, transmittance)?,
             },
+<<<<<<< HEAD
             Self::Measured(table) => Recipe::Measured(with.table(table)?),
+=======
+            Self::Measured(table) => Recipe::Measured(table.clone()),
+            Self::Principled(recipe) => return recipe.turn(with),
+>>>>>>> a32b7f5 (Read glTF's material with its extensions, named metals and glasses, and numbers from pictures)
             Self::Plastic {
                 ior,
                 diffuse,
