@@ -123,7 +123,7 @@ fn extensions_become_parameters() {
     assert_eq!(recipe.sheen_color.factor, LaneValues::Rgb([0.5, 0.25, 0.0]));
     assert_eq!(recipe.sheen_color.textures.len(), 1);
     assert_eq!(pictured(&recipe.sheen_roughness), (0.625, Some(3)));
-    assert_eq!(pictured(&recipe.anisotropy), (0.5, Some(2)));
+    assert_eq!(pictured(&recipe.anisotropy), (0.5, None));
     assert_eq!(pictured(&recipe.anisotropy_rotation), (0.25, None));
 }
 
@@ -153,7 +153,7 @@ fn what_is_not_read_is_told() {
     let anisotropy = json!({ "anisotropyStrength": 1, "anisotropyTexture": { "index": 1 } });
     let told_of = told(json!({ "extensions": { "KHR_materials_anisotropy": anisotropy } }));
     assert!(
-        told_of.contains("directions of anisotropy textures are left out"),
+        told_of.contains("textures of anisotropy are left out"),
         "{told_of}"
     );
     let index = told(json!({ "extensions": { "KHR_materials_ior": { "ior": 0 } } }));

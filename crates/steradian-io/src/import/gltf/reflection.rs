@@ -8,7 +8,7 @@
 //! | KHR_materials_volume | attenuation; a thickness makes the surface that of a solid | how thick it is |
 //! | KHR_materials_clearcoat | strength (red), roughness (green) | its normals |
 //! | KHR_materials_sheen | colour, roughness (alpha) | |
-//! | KHR_materials_anisotropy | strength (blue), rotation | the texture's directions |
+//! | KHR_materials_anisotropy | strength, rotation | its texture; all of it where roughness is a texture |
 //!
 //! Factors multiply textures. Unlit materials and those of specular-glossiness stay diffuse: the latter reflects
 //! ρ = c_d (1 − max c_s) + c_s, with c_s left out where c_d is a texture. Source: Khronos, *glTF 2.0 Specification*
@@ -73,8 +73,6 @@ pub(super) fn textures_of(material: &Material) -> Vec<&TextureInfo> {
     ];
     let transmission = extensions.transmission.as_ref();
     found.push(transmission.and_then(|found| found.transmission_texture.as_ref()));
-    let anisotropy = extensions.anisotropy.as_ref();
-    found.push(anisotropy.and_then(|found| found.anisotropy_texture.as_ref()));
     if let Some(specular) = &extensions.specular {
         let textures = [&specular.specular_texture, &specular.specular_color_texture];
         found.extend(textures.map(Option::as_ref));
@@ -111,7 +109,7 @@ impl Reader<'_, '_> {
         self.add_transmission(&mut recipe)?;
         self.add_clearcoat(&mut recipe)?;
         self.add_sheen(&mut recipe)?;
-        self.add_anisotropy(&mut recipe)?;
+        self.add_anisotropy(&mut recipe);
         Ok(MaterialModel::Recipe(Recipe::Principled(Box::new(recipe))))
     }
 
@@ -218,18 +216,23 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn add_anisotropy(&mut self, recipe: &mut Principled) -> Result<(), GltfError> {
+    fn add_anisotropy(&mut self, recipe: &mut Principled) {
         let Some(found) = &self.material.extensions.anisotropy else {
-            return Ok(());
+            return;
         };
-        let texture = found.anisotropy_texture.as_ref();
-        if texture.is_some() {
-            let text = "directions of anisotropy textures are left out";
+        if found.anisotropy_texture.is_some() {
+            let text = "textures of anisotropy are left out";
             self.notes.count("materials", text, &self.place);
         }
-        recipe.anisotropy = self.number(found.anisotropy_strength, texture, BLUE)?;
+        // Facets of other widths along each tangent have tables of their own, too costly for every point.
+        if recipe.roughness.picture.is_some() {
+            let text = "anisotropy of surfaces whose roughness is a texture is left out";
+            self.notes.count("materials", text, &self.place);
+            return;
+        }
+        let [strength] = self.fractions([found.anisotropy_strength]);
+        recipe.anisotropy = strength.into();
         recipe.anisotropy_rotation = found.anisotropy_rotation.into();
-        Ok(())
     }
 
     /// A factor of a channel of a texture, if there are coordinates to lay it by.

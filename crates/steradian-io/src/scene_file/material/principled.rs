@@ -46,9 +46,11 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>> {
 
 /// What the inside of a solid absorbs.
 pub(super) fn absorption(fields: &Fields<'_>) -> Option<LaneValues> {
-    let color: LaneValues = fields.get("attenuation_color")?;
-    let distance: Length = fields.get("attenuation_distance")?;
-    let found = absorption_of_attenuation(&color, distance.to_metres());
+    let (color, distance) = (
+        fields.get::<LaneValues>("attenuation_color"),
+        fields.get::<Length>("attenuation_distance"),
+    );
+    let found = absorption_of_attenuation(&color?, distance?.to_metres());
     if found.is_none() {
         let message = "expected values above 0 and up to 1, and a distance above 0";
         let span = fields.span_of("attenuation_color");

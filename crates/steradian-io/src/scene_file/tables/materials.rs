@@ -1,12 +1,12 @@
 //! Keys of materials, by model.
 
-use steradian::quantity::{Absorption, Angle, Length, Quantity};
+use steradian::quantity::{Absorption, Angle, Quantity};
 
-use super::{MATERIAL, NUMBER, OPACITY, VARYING};
+use super::principled::PRINCIPLED;
+use super::{MATERIAL, OPACITY, VARYING};
 use crate::scene_file::keys::{Family, Key, Kind, Value};
-use crate::scene_file::value::Read;
 
-const OPACITY_KEY: Key = Key::optional(
+pub const OPACITY_KEY: Key = Key::optional(
     "opacity",
     OPACITY,
     "Part of the light that the surface stops, 0 to 1; the rest passes straight through",
@@ -371,76 +371,7 @@ pub const MATERIALS: Family = Family {
                 OPACITY_KEY,
             ],
         ),
-        Kind::new(
-            "principled",
-            "The metallic-roughness material of glTF with its extensions",
-            &[
-                Key::required(
-                    "base_color",
-                    VARYING,
-                    "Reflectance below the gloss, highlights of a metal, tint of transmission, 0 to 1",
-                ),
-                Key::default("metallic", NUMBER, "0", "Share of metal, 0 to 1"),
-                Key::default(
-                    "roughness",
-                    NUMBER,
-                    "1",
-                    "Root of the width of the facets' slopes, 0 to 1",
-                ),
-                Key::default("ior", Value::Number, "1.5", "Index of refraction, 1 to 10"),
-                Key::default(
-                    "specular",
-                    NUMBER,
-                    "1",
-                    "Strength of a dielectric's highlights, 0 to 1",
-                ),
-                Key::default(
-                    "specular_color",
-                    VARYING,
-                    "1",
-                    "Their colour along the normal, 0 or more",
-                ),
-                Key::optional(
-                    "transmission",
-                    NUMBER,
-                    "Share of the dielectric that lets light through instead of scattering it, 0 to 1",
-                ),
-                Key::default(
-                    "thin",
-                    Value::Flag,
-                    "true",
-                    "Whether it is a sheet without inside; false for the surface of a solid",
-                ),
-                Key::optional(
-                    "attenuation_color",
-                    Value::Lanes,
-                    "What is left of white light after `attenuation_distance` inside a solid, above 0 to 1",
-                ),
-                Key::required(
-                    "attenuation_distance",
-                    Length::VALUE,
-                    "The distance at which `attenuation_color` is left",
-                )
-                .beside("attenuation_color"),
-                Key::default("clearcoat", NUMBER, "0", "Strength of a clear coat, 0 to 1"),
-                Key::default("clearcoat_roughness", NUMBER, "0", "Its roughness, 0 to 1"),
-                Key::default("sheen_color", VARYING, "0", "Colour of a sheen, 0 to 1"),
-                Key::default("sheen_roughness", NUMBER, "0", "Its roughness, 0 to 1"),
-                Key::default(
-                    "anisotropy",
-                    NUMBER,
-                    "0",
-                    "How much wider the slopes are along the tangent, 0 to 1",
-                ),
-                Key::default(
-                    "anisotropy_rotation",
-                    Value::Quantity(&[Angle::TABLE]),
-                    "\"0 deg\"",
-                    "From the first tangent to that one",
-                ),
-                OPACITY_KEY,
-            ],
-        ),
+        PRINCIPLED,
         Kind::not_yet("glass"),
     ],
 };

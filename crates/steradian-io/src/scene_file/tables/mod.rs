@@ -5,6 +5,7 @@
 
 mod lights;
 mod materials;
+mod principled;
 mod schedules;
 mod sensors;
 mod shapes;
