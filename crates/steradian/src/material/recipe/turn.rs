@@ -141,12 +141,8 @@ impl<L, N> Recipe<L, N> {
                 ior: *ior,
                 transmittance: with.lanes("transmittance", Share, transmittance)?,
             },
-<<<<<<< HEAD
             Self::Measured(table) => Recipe::Measured(with.table(table)?),
-=======
-            Self::Measured(table) => Recipe::Measured(table.clone()),
             Self::Principled(recipe) => return recipe.turn(with),
->>>>>>> a32b7f5 (Read glTF's material with its extensions, named metals and glasses, and numbers from pictures)
             Self::Plastic {
                 ior,
                 diffuse,
