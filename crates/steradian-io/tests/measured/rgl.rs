@@ -226,7 +226,7 @@ fn samples_follow_their_density() {
             let albedo = f64::from(model.albedo(wo).to_lanes()[2]);
             assert!((mean / albedo - 1.0).abs() < 0.01, "{mean} {albedo}");
             let (mut reflected, mut density) = (0.0, 0.0);
-            let fine = 256;
+            let fine = 128;
             for k in 0..fine * fine {
                 let cos = (k / fine) as f64 / fine as f64 + 0.5 / fine as f64;
                 let wi = polar(libm::acos(cos), 2.0 * PI * (k % fine) as f64 / fine as f64);

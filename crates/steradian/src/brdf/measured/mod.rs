@@ -12,7 +12,7 @@
 //! Above, z > 0, is the interior, which files of WINDOW call `Back`; azimuths of incidence and scattering are the same for light
 //! that goes straight on. These are the conventions of Radiance.
 //!
-//! Directions are drawn from the tables themselves; the weight is albedo + transmittance, always.
+//! Directions are drawn from the tables themselves: for [`TwoSided`] every weight is albedo + transmittance; the others state their bounds.
 //!
 //! ```
 //! use steradian::brdf::measured::{AngleBasis, Block, PatchMatrix, Side, TwoSided};
