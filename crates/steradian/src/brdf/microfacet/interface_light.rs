@@ -3,7 +3,8 @@
 //! With c = d_e·m and η the far index over the near one, a facet transmits 1 − F(c) where c² ≥ c₀² = 1 − η² (any c > 0, if
 //! η ≥ 1). In the coordinates of [`quadrature`](super::quadrature) c = cosθ_e (1 − r t cosψ)/√(1 + r²), so that on every azimuth the
 //! slopes that transmit form one interval, between roots of a quadratic; where d_e lies beyond the critical angle only azimuths
-//! with −sinh x ≥ √(c₀² − cos²θ_e)/cosθ_e have one. What is reflected is all light that a white facet would send back, less what is
+//! with −sinh x ≥ √(c₀² − cos²θ_e)/cosθ_e have one. Slopes at which the light that is let through stays above the surface are cut
+//! off at borders found by halving. What is reflected is all light that a white facet would send back, less what is
 //! transmitted.
 
 use std::f64::consts::FRAC_PI_2;
@@ -47,6 +48,23 @@ pub(super) fn weighed_shares(
         |m| [light.transmitted(m, &f)],
     );
     [white - kept, transmitted]
+}
+
+/// The last place from `inside` towards `end` where it is so, by halving.
+fn border(mut inside: f64, end: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    if holds(end) {
+        return end;
+    }
+    let mut outside = end;
+    for _ in 0..24 {
+        let middle = 0.5 * (inside + outside);
+        if holds(middle) {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
+    }
+    inside
 }
 
 struct Light {
@@ -101,22 +119,17 @@ impl Light {
         }
     }
 
-    /// Those of them that refract to below the surface: up to a border that is found by halving.
+    /// Those of them that refract to below the surface.
     fn leaving(&self, ray: &Ray) -> Option<[f64; 2]> {
         let [low, high] = self.transmitting(ray)?;
-        if self.eta >= 1.0 || self.leaves(ray, high) {
+        if self.eta >= 1.0 {
             return Some([low, high]);
         }
-        let [mut inside, mut outside] = [low, high].map(libm::atan);
-        for _ in 0..48 {
-            let middle = 0.5 * (inside + outside);
-            if self.leaves(ray, libm::tan(middle)) {
-                inside = middle;
-            } else {
-                outside = middle;
-            }
-        }
-        Some([low, libm::tan(inside)])
+        let [low, high] = [low, high].map(libm::atan);
+        let leaves = |slope| self.leaves(ray, libm::tan(slope));
+        let places = [0.0, 1.0, 0.75, 0.5, 0.25].map(|part| low + part * (high - low));
+        let inside = places.into_iter().find(|&slope| leaves(slope))?;
+        Some([low, high].map(|end| libm::tan(border(inside, end, leaves))))
     }
 
     /// Whether (c − √(c² − c₀²)) m_z ≤ cosθ_e, the refracted direction's height times −η.

@@ -11,7 +11,7 @@
 //! | E, Ē | albedo of the first term at F = 1, and its hemispherical mean | 1 |
 //!
 //! A perfectly reflecting metal has albedo 1 at every angle (measured for α = .05 … 1: within
-//! 1e-3). The first term is
+//! 5e-4). The first term is
 //! drawn from the visible normals (weight at most F), the second in proportion to (1 − E) cosθ (weight at most about
 //! F_ms); the second is taken with probability 1 − E(d_e), so that a weight is at most 1/E(d_e).
 //!

@@ -11,7 +11,7 @@
 //! | ρ_d | reflectance of the base | 1 |
 //!
 //! With multiple scattering T is all that is not reflected and R̄_in = 1 − T̄/η², so that white plastic is white (to
-//! 1.5e-3). With single scattering T and R̄_in are those of one facet and light is lost: with separable shadowing this is Mitsuba 3's `roughplastic` with
+//! 1e-3). With single scattering T and R̄_in are those of one facet and light is lost: with separable shadowing this is Mitsuba 3's `roughplastic` with
 //! `nonlinear = true`. (Its `nonlinear = false` divides by 1 − R̄_in and so leaves out the colour that the base gains from bounces.)
 //!
 //! T comes from tables ([`RoughDielectric`] shares them). The coat's first lobe is drawn from the facets with a probability in proportion to the

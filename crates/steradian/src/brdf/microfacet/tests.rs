@@ -90,28 +90,28 @@ fn worst(facets: Facets, model: &Brdf, phi: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Widths between the tables and next to them.
+/// Widths between the tables and next to them: what is left is interpolation in width.
 #[test]
-fn white_furnaces_close_within_two_per_mille() {
+fn white_furnaces_close_within_half_a_per_mille() {
     for slopes in [Slopes::Ggx, Slopes::Beckmann] {
         for alpha in WIDTHS {
             let facets = Facets::isotropic(slopes, alpha).unwrap();
             for model in [metal(facets), glass(facets)] {
                 let error = worst(facets, &model, 0.3);
-                assert!(error < 2e-3, "{slopes:?} {alpha}: {error}");
+                assert!(error < 5e-4, "{slopes:?} {alpha}: {error}");
             }
         }
     }
 }
 
 #[test]
-fn anisotropic_furnaces_close_within_two_per_mille() {
+fn anisotropic_furnaces_close_within_half_a_per_mille() {
     for (slopes, widths) in [(Slopes::Ggx, [0.1, 0.5]), (Slopes::Beckmann, [1.0, 0.2])] {
         let facets = Facets::anisotropic(slopes, widths).unwrap();
         let model = metal(facets);
         for phi in [0.0, 0.2, 0.9, 1.5, 2.5] {
             let error = worst(facets, &model, phi);
-            assert!(error < 2e-3, "{widths:?} {phi}: {error}");
+            assert!(error < 5e-4, "{widths:?} {phi}: {error}");
         }
     }
 }
