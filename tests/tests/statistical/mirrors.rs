@@ -82,3 +82,21 @@ fn what_cannot_be_sampled_is_told() {
     let matt = measured(&scene_of(square(2.0, 0.0).made_of("paper")), &samples(1024));
     assert!(matt.complete(), "{:?}", matt.unsampled);
 }
+
+/// Polished glass both reflects and refracts a lamp; ground glass is found by light samples.
+#[test]
+fn glass_is_told_by_what_it_does() {
+    let classes = |roughness| {
+        let lamp = point_light(p(0.0, 0.0, 1.0), intensity(1.0));
+        let glass = modelled("glass", dielectric(1.5, roughness));
+        let shape = ball(p(0.0, 0.0, 3.0), 0.5).made_of("glass");
+        let scene = with_meter(scene([glass], [shape], [lamp]), p(0.0, 0.0, 0.5), false);
+        measured(&scene, &samples(1024)).unsampled
+    };
+    let polished = classes(None);
+    assert!(
+        matches!(&polished[..], [one] if one.contains("reflected and refracted")),
+        "{polished:?}"
+    );
+    assert_eq!(classes(Some(rough(0.2, false))), Vec::<String>::new());
+}

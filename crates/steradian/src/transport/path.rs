@@ -9,6 +9,10 @@
 //! whose weighted contribution ρ·L·cosθ·w_a/p_a never exceeds ρ·L·cosθ/(2 p_b): the sample of a light is bounded by the
 //! density of the surface's own sampling, and the other way round, so no weight is unbounded near a light.
 //!
+//! Lambertian surfaces and mirrors are columns of the batch; surfaces of any other model are asked vertex by vertex (see
+//! [`scattering`](super::scattering)). Panes and surfaces that are not opaque let a part of the light pass straight: a path goes on
+//! behind them with the probability of that part, as rays to lights do with its weight, and is at no vertex there.
+//!
 //! A path ends by roulette with survival probability q = min(1, 4 × greatest lane of its throughput): the first
 //! reflections are followed without its noise, and the throughput of a survivor is never raised above ¼, so that weights
 //! stay bounded at any reflectance; without roulette only `max_depth` ends a path.
