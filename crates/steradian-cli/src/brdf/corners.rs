@@ -209,7 +209,7 @@ const RANGES: &[Range] = &[
         "principled",
         &["base_color=0.8", "metallic=1", "roughness=0.4"],
         &[
-            ("anisotropy", &["-1", "1"]),
+            ("anisotropy", &["0.5", "1"]),
             ("clearcoat", &["1"]),
             ("sheen_color", &["1"]),
         ],
