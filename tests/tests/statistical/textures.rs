@@ -124,6 +124,7 @@ fn shaded_triangle() -> ShapeDescription {
             [0.3, 0.3, 0.3, 1.0],
             [0.9, 0.9, 0.9, 1.0],
         ],
+        ..MeshData::default()
     };
     let mut shape = square(1.0, 0.0).made_of("painted");
     shape.geometry = GeometryDescription::Mesh(Arc::new(mesh));

@@ -153,7 +153,7 @@ mod tests {
             vertices: vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)],
             triangles: vec![[0, 1, 2], [0, 1, 1]],
             texture_coordinates: vec![[0.0, 1.0]; coordinates],
-            colors: vec![],
+            ..MeshData::default()
         };
         MeshPart {
             mesh: Arc::new(mesh),

@@ -24,6 +24,7 @@ pub(super) fn read(name: &str, node: Node<'_>) -> Option<MaterialDescription> {
         model: model?,
         opacity,
         media,
+        relief: None,
     })
 }
 

@@ -15,8 +15,8 @@ pub use crate::material::{
     Scalar, Texels, Wrap,
 };
 use crate::quantity::{
-    Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Luminance, LuminousExitance,
-    LuminousFlux, LuminousIntensity, Radiance,
+    Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Length, Luminance,
+    LuminousExitance, LuminousFlux, LuminousIntensity, Radiance,
 };
 pub use crate::sensor::{Bins, Fisheye, FluxOf, Projection, Response};
 pub use crate::spectrum::{Glass, LaneValues, Metal};
@@ -81,6 +81,8 @@ pub struct MaterialDescription {
     pub opacity: Option<Opacity>,
     /// Absorption in 1/m on the sides of the surface.
     pub media: Media<LaneValues>,
+    /// What turns its normals; `None` where it is as smooth as its shape.
+    pub relief: Option<Relief>,
 }
 
 impl MaterialDescription {
@@ -91,8 +93,28 @@ impl MaterialDescription {
             model,
             opacity: None,
             media: Media::default(),
+            relief: None,
         }
     }
+}
+
+/// A picture that turns the normals of a surface without moving the surface. Its values are read as linear numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Relief {
+    /// Normals, (x, y, z) = 2·(red, green, blue) − 1: x along u, y along v, z out of the front.
+    Normals {
+        /// The normals.
+        picture: Texture,
+        /// What x and y are multiplied by.
+        scale: f64,
+    },
+    /// Heights over the front: the mean of red, green and blue, times a scale.
+    Height {
+        /// The heights.
+        picture: Texture,
+        /// The height of 1.
+        scale: Length,
+    },
 }
 
 /// The reflection models a description can name.
@@ -246,6 +268,8 @@ pub struct MeshData {
     pub texture_coordinates: Vec<[f32; 2]>,
     /// Linear Rec.709 and alpha of each vertex; empty when there are none.
     pub colors: Vec<[f32; 4]>,
+    /// Unit normals of each vertex, in the coordinates of `vertices`; empty when there are none.
+    pub normals: Vec<[f32; 3]>,
 }
 
 /// A circular opening in a sphere: the cap of `half_angle` around `direction`.

@@ -115,6 +115,7 @@ impl<'d> Materials<'d> {
             model: reader.model()?,
             opacity: reader.opacity()?,
             media: reader.media(),
+            relief: None,
         });
         Ok(Finish {
             material: name,

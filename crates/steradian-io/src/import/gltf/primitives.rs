@@ -45,6 +45,7 @@ pub(super) fn read(
         colors: each(colors, &used, |color: [f64; 4]| {
             color.map(|lane| lane.clamp(0.0, 1.0) as f32)
         })?,
+        normals: vec![],
     }))
 }
 

@@ -56,6 +56,7 @@ impl Entry {
                 name: self.name,
                 opacity: (opacity.factor < 1.0 || !opacity.textures.is_empty()).then_some(opacity),
                 media: Media::default(),
+                relief: None,
             },
         }
     }
