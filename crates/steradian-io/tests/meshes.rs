@@ -129,7 +129,10 @@ fn glb() -> Vec<u8> {
             .iter()
             .flat_map(|corner| (*corner as u32).to_le_bytes()),
     );
-    let material = json!({ "baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0 });
+    let colour = json!({ "baseColorFactor": [0.5, 0.5, 0.5, 1] });
+    // Without gloss, as the other formats are.
+    let material =
+        json!({ "pbrMetallicRoughness": colour, "extensions": { "KHR_materials_unlit": {} } });
     let document = json!({
         "asset": { "version": "2.0" },
         "buffers": [{ "byteLength": data.len() }],
@@ -141,7 +144,7 @@ fn glb() -> Vec<u8> {
             { "bufferView": 0, "componentType": 5126, "count": VERTICES.len(), "type": "VEC3" },
             { "bufferView": 1, "componentType": 5125, "count": 3 * triangles().len(), "type": "SCALAR" },
         ],
-        "materials": [{ "pbrMetallicRoughness": material }],
+        "materials": [material],
         "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1, "material": 0 }] }],
         "nodes": [{ "mesh": 0 }],
     });

@@ -3,13 +3,14 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use steradian::geometry::{Transform, Vector};
+use steradian::geometry::{Direction, Transform};
 use steradian::scene::description::{
     GeometryDescription, MeshData, SceneDescription, ShapeDescription,
 };
 
 use super::gltf::{self, GltfError};
 use super::mesh_file::{MeshFile, MeshMaterial, MeshPart};
+use super::normals::{LEFT_OUT, unit};
 use crate::files::Files;
 
 /// Reads the surfaces of a glTF file; its lights and cameras are left out. Metres, z up.
@@ -26,14 +27,17 @@ pub(super) fn read(path: &Path, bytes: &[u8], files: &dyn Files) -> Result<MeshF
     for shape in &scene.shapes {
         if let GeometryDescription::Mesh(mesh) = &shape.geometry {
             let material = index_of(&mut file, &scene, shape);
-            let part = part_for(&mut file, mesh, material);
-            append(part, mesh, &shape.transform).ok_or(GltfError::Empty)?;
+            let placed = placed(mesh, &shape.transform);
+            if placed.normals.len() < mesh.normals.len() {
+                file.warn(LEFT_OUT);
+            }
+            append(part_for(&mut file, &placed, material), placed).ok_or(GltfError::Empty)?;
         }
     }
     Ok(file)
 }
 
-/// The part for a mesh: of the same material, and with texture coordinates and colours if and only if the mesh has them.
+/// The part for a mesh: of the same material, and with texture coordinates, colours and normals if and only if the mesh has them.
 fn part_for<'f>(
     file: &'f mut MeshFile,
     mesh: &MeshData,
@@ -43,6 +47,7 @@ fn part_for<'f>(
         part.material == material
             && part.mesh.texture_coordinates.is_empty() == mesh.texture_coordinates.is_empty()
             && part.mesh.colors.is_empty() == mesh.colors.is_empty()
+            && part.mesh.normals.is_empty() == mesh.normals.is_empty()
     };
     let index = file.parts.iter().position(is_alike).unwrap_or_else(|| {
         let mesh = Arc::default();
@@ -66,37 +71,49 @@ fn index_of(
     }))
 }
 
-/// Adds a mesh where its transform puts it; `None` if there are more vertices than can be numbered.
-fn append(all: &mut MeshData, mesh: &MeshData, transform: &Transform) -> Option<()> {
-    let first = u32::try_from(all.vertices.len()).ok()?;
-    first.checked_add(u32::try_from(mesh.vertices.len()).ok()?)?;
-    let mirrors = mirrors(transform);
-    let moved = mesh.triangles.iter().map(|triangle| {
-        let [a, b, c] = triangle.map(|corner| corner + first);
-        if mirrors { [a, c, b] } else { [a, b, c] }
-    });
-    all.triangles.extend(moved);
+/// A mesh where its transform puts it, without normals if one of them has no image.
+fn placed(mesh: &MeshData, transform: &Transform) -> MeshData {
+    let turned = |&[a, b, c]: &[u32; 3]| [a, c, b];
     let vertices = mesh.vertices.iter().map(|vertex| transform.point(*vertex));
-    all.vertices.extend(vertices);
-    all.texture_coordinates
-        .extend_from_slice(&mesh.texture_coordinates);
-    all.colors.extend_from_slice(&mesh.colors);
-    Some(())
+    let normals = mesh.normals.iter().map(|normal| {
+        let normal = Direction::try_from(normal.map(f64::from)).ok()?;
+        unit(transform.normal(normal).ok()?.into())
+    });
+    MeshData {
+        vertices: vertices.collect(),
+        triangles: if transform.is_mirroring() {
+            mesh.triangles.iter().map(turned).collect()
+        } else {
+            mesh.triangles.clone()
+        },
+        normals: normals.collect::<Option<_>>().unwrap_or_default(),
+        texture_coordinates: mesh.texture_coordinates.clone(),
+        colors: mesh.colors.clone(),
+    }
 }
 
-/// Whether a transform turns counter-clockwise into clockwise; fronts are kept nevertheless.
-fn mirrors(transform: &Transform) -> bool {
-    let axis = |x, y, z| transform.vector(Vector::new(x, y, z));
-    axis(1.0, 0.0, 0.0)
-        .cross(axis(0.0, 1.0, 0.0))
-        .dot(axis(0.0, 0.0, 1.0))
-        < 0.0
+/// Adds a mesh; `None` if there are more vertices than can be numbered.
+fn append(all: &mut MeshData, mut mesh: MeshData) -> Option<()> {
+    let first = u32::try_from(all.vertices.len()).ok()?;
+    first.checked_add(u32::try_from(mesh.vertices.len()).ok()?)?;
+    let numbered = mesh
+        .triangles
+        .iter()
+        .map(|triangle| triangle.map(|corner| corner + first));
+    all.triangles.extend(numbered);
+    all.vertices.append(&mut mesh.vertices);
+    all.texture_coordinates
+        .append(&mut mesh.texture_coordinates);
+    all.colors.append(&mut mesh.colors);
+    all.normals.append(&mut mesh.normals);
+    Some(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::files::MemoryFiles;
+    use steradian::geometry::{Point, Vector};
 
     /// A triangle of three nodes: as it is, mirrored and with another material.
     const SCENE: &str = r#"{
@@ -112,6 +129,31 @@ mod tests {
         "cameras": [{ "type": "perspective", "perspective": { "yfov": 0.7, "znear": 0.1 } }],
         "nodes": [{ "mesh": 0 }, { "mesh": 0, "scale": [-1, 1, 1] }, { "mesh": 1 }, { "camera": 0 }]
     }"#;
+
+    #[test]
+    fn normals_stay_normal_to_what_is_stretched_and_mirrored() {
+        let slope = std::f32::consts::FRAC_1_SQRT_2;
+        let mesh = MeshData {
+            vertices: [[0.0; 3], [1.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
+                .map(Point::from)
+                .to_vec(),
+            triangles: vec![[0, 1, 2]],
+            normals: vec![[slope, 0.0, slope]; 3],
+            ..MeshData::default()
+        };
+        let stretched = placed(&mesh, &Transform::scale_axes([-2.0, 1.0, 1.0]));
+        // M⁻ᵀ (1, 0, 1) = (−½, 0, 1), of length √1.25; the front stays in front.
+        let expected = [-0.447_213_6, 0.0, 0.894_427_2_f32];
+        for (found, expected) in stretched.normals[1].iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{stretched:?}");
+        }
+        assert_eq!(stretched.triangles, [[0, 2, 1]]);
+        assert!(
+            placed(&mesh, &Transform::scale_axes([1.0, 0.0, 0.0]))
+                .normals
+                .is_empty()
+        );
+    }
 
     #[test]
     fn nodes_are_put_together_by_material_with_their_fronts() {

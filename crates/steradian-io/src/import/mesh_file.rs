@@ -71,6 +71,13 @@ impl MeshFile {
         })
     }
 
+    /// Says something, once.
+    pub(super) fn warn(&mut self, warning: &str) {
+        if !self.warnings.iter().any(|said| said == warning) {
+            self.warnings.push(warning.into());
+        }
+    }
+
     /// How many triangles have no area.
     pub fn triangles_without_area(&self) -> usize {
         let parts = self.parts.iter();
@@ -83,7 +90,7 @@ impl MeshFile {
         parts.map(|part| part.mesh.triangles.len()).sum()
     }
 
-    /// All parts in one mesh. Texture coordinates and colours are kept if all parts have them.
+    /// All parts in one mesh. Texture coordinates, colours and normals are kept if all parts have them.
     ///
     /// `None` if there are more vertices than can be numbered.
     pub fn merged(&self) -> Option<Arc<MeshData>> {
@@ -109,6 +116,9 @@ impl MeshFile {
         }
         if meshes().all(|mesh| !mesh.colors.is_empty()) {
             all.colors = meshes().flat_map(|mesh| mesh.colors.clone()).collect();
+        }
+        if meshes().all(|mesh| !mesh.normals.is_empty()) {
+            all.normals = meshes().flat_map(|mesh| mesh.normals.clone()).collect();
         }
         Some(Arc::new(all))
     }
@@ -153,6 +163,7 @@ mod tests {
             vertices: vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)],
             triangles: vec![[0, 1, 2], [0, 1, 1]],
             texture_coordinates: vec![[0.0, 1.0]; coordinates],
+            normals: vec![[0.0, 0.0, 1.0]; coordinates],
             ..MeshData::default()
         };
         MeshPart {
@@ -172,6 +183,7 @@ mod tests {
             assert_eq!(merged.triangles[2..], [[3, 4, 5], [3, 4, 4]]);
             assert_eq!(merged.vertices[4], Point::new(7.0, 1.0, 0.0));
             assert_eq!(merged.texture_coordinates.len(), kept);
+            assert_eq!(merged.normals.len(), kept);
             assert_eq!((file.triangles(), file.triangles_without_area()), (4, 2));
         }
     }

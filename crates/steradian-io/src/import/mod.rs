@@ -8,6 +8,7 @@ pub mod gltf;
 mod gltf_mesh;
 pub mod image;
 mod mesh_file;
+mod normals;
 pub mod obj;
 pub mod ply;
 pub mod points;

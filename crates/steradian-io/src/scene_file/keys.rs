@@ -95,7 +95,7 @@ pub(super) struct Family {
     /// The key that names the kind.
     pub tag: &'static str,
     pub kinds: &'static [Kind],
-    /// Keys of every kind.
+    /// Keys of every kind that does not stand alone.
     pub common: &'static [Key],
     /// The kind that is meant if the tag is absent and one of its own keys is there.
     pub untagged: Option<&'static str>,
@@ -108,6 +108,8 @@ pub(super) struct Kind {
     pub doc: &'static str,
     /// `None` for a kind that is known but not yet read.
     pub keys: Option<&'static [Key]>,
+    /// It has none of the keys that the others share.
+    pub is_alone: bool,
 }
 
 /// A table at the top of a scene file.
@@ -204,6 +206,15 @@ impl Kind {
             name,
             doc,
             keys: Some(keys),
+            is_alone: false,
+        }
+    }
+
+    /// The same kind without the keys that the others share.
+    pub const fn alone(self) -> Self {
+        Self {
+            is_alone: true,
+            ..self
         }
     }
 
@@ -212,6 +223,7 @@ impl Kind {
             name,
             doc: "",
             keys: None,
+            is_alone: false,
         }
     }
 }
@@ -219,6 +231,12 @@ impl Kind {
 impl Family {
     pub fn kind(&self, name: &str) -> Option<&'static Kind> {
         self.kinds.iter().find(|kind| kind.name == name)
+    }
+
+    /// All keys of a kind; `None` if it is not yet read.
+    pub fn keys(&self, kind: &Kind) -> Option<Vec<&'static Key>> {
+        let common = if kind.is_alone { &[] } else { self.common };
+        Some(kind.keys?.iter().chain(common).collect())
     }
 
     /// The kinds that can be read.

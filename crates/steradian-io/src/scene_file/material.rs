@@ -12,6 +12,7 @@ use toml::de::DeValue;
 use super::fields::Fields;
 use super::keys::Value;
 use super::node::Node;
+use super::relief;
 use super::tables::{ABSORPTION, MATERIALS};
 use super::value::{Read, choices, quantity};
 
@@ -19,12 +20,13 @@ use super::value::{Read, choices, quantity};
 pub(super) fn read(name: &str, node: Node<'_>) -> Option<MaterialDescription> {
     let (kind, fields) = node.kind(&MATERIALS)?;
     let (model, opacity, media) = (model(kind, &fields), fields.get("opacity"), media(&fields));
+    let relief = relief::read(&fields);
     Some(MaterialDescription {
         name: name.to_owned(),
         model: model?,
         opacity,
         media,
-        relief: None,
+        relief,
     })
 }
 

@@ -117,8 +117,13 @@ fn loaded(fields: &Fields<'_>, name: Option<&str>) -> Option<Arc<LoadedMesh>> {
         let mut file = from_file(fields, name)?;
         let (unit, up) = (unit?, if file.is_oriented { UpAxis::Z } else { up? });
         for part in &mut file.parts {
-            for vertex in &mut Arc::make_mut(&mut part.mesh).vertices {
+            let mesh = Arc::make_mut(&mut part.mesh);
+            for vertex in &mut mesh.vertices {
                 *vertex = up.point_in(scene_up, scaled(*vertex, unit));
+            }
+            for normal in &mut mesh.normals {
+                let turned = up.point_in(scene_up, Point::from(normal.map(f64::from)));
+                *normal = turned.to_array().map(|part| part as f32);
             }
         }
         tell(fields, name, &file);

@@ -36,6 +36,7 @@ mod models;
 mod nearest;
 mod node;
 mod placement;
+mod relief;
 mod schedule;
 mod schema;
 mod sections;

@@ -89,12 +89,11 @@ impl<'a> Node<'a> {
             self.report_unknown_kind(family, table, name);
             return None;
         };
-        let Some(own) = kind.keys else {
+        let Some(keys) = family.keys(kind) else {
             let message = format!("{} {name:?} is not supported yet", family.noun);
             self.context.error(tag_span(family, table), message, None);
             return None;
         };
-        let keys = own.iter().chain(family.common).collect();
         let noun = format!("the {} {}", kind.name, family.noun);
         Some((
             kind.name,

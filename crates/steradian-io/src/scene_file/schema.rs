@@ -55,7 +55,7 @@ impl Definitions {
         let alternatives = kinds
             .chunk_by(|(_, keys), (_, next)| keys == next)
             .map(|alike| {
-                let (kind, own) = alike[0];
+                let (kind, _) = alike[0];
                 let names: Vec<&str> = alike.iter().map(|(kind, _)| kind.name).collect();
                 let tag = json!({ "enum": names, "description": kind.doc });
                 let properties = Map::from_iter([(family.tag.to_owned(), tag)]);
@@ -64,7 +64,7 @@ impl Definitions {
                 } else {
                     vec![family.tag]
                 };
-                let keys: Vec<&Key> = own.iter().chain(family.common).collect();
+                let keys = family.keys(kind).unwrap_or_default();
                 self.keys(&keys, properties, required)
             });
         json!({ "oneOf": alternatives.collect::<Vec<_>>() })

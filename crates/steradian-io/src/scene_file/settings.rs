@@ -12,7 +12,8 @@
 //! let plaster = material_from_settings("oren-nayar", &settings, &Lanes::rgb(), &MemoryFiles::default()).unwrap();
 //! assert!(plaster.brdf([0.0; 4]).is_some());
 //!
-//! let problems = material_from_settings("oren-nayar", &[("sigma", "1 m")], &Lanes::rgb(), &MemoryFiles::default());
+//! let settings = [("reflectance", "0.5"), ("sigma", "1 m")];
+//! let problems = material_from_settings("oren-nayar", &settings, &Lanes::rgb(), &MemoryFiles::default());
 //! assert!(problems.err().unwrap()[0].message.contains("found \"1 m\", which is a length"));
 //! ```
 

@@ -115,6 +115,16 @@ fn placement(fields: &Fields<'_>) -> Option<Placement> {
     Some(Placement([[su, 0.0, ou], [0.0, sv, ov]]))
 }
 
+/// The picture of the key `texture`, of linear numbers, as it is laid.
+pub(super) fn of_numbers(fields: &Fields<'_>) -> Option<Texture> {
+    let placement = placement(fields);
+    let picture = picture(fields, Some(Encoding::Linear), Ok)?;
+    Some(Texture {
+        pattern: Pattern::Bitmap(picture),
+        placement: placement?,
+    })
+}
+
 /// The picture of the key `texture`.
 fn picture(
     fields: &Fields<'_>,

@@ -2,7 +2,7 @@ use serde_json::{Value, json};
 use steradian::quantity::{Amount, Luminance};
 use steradian::scene::description::{
     Bitmap, EmissionAmount, Interpolation, LaneValues, MaterialDescription, MaterialModel, Pattern,
-    PrincipledRecipe, Recipe, Scalar, SceneDescription, Texture, Varying, Wrap,
+    PrincipledRecipe, Recipe, Relief, Scalar, SceneDescription, Texture, Varying, Wrap,
 };
 
 use crate::building::{Buffer, mesh, refusal, scene};
@@ -158,6 +158,44 @@ fn what_is_not_read_is_told() {
     );
     let index = told(json!({ "extensions": { "KHR_materials_ior": { "ior": 0 } } }));
     assert!(index.contains("beyond 1 to 10"), "{index}");
+}
+
+#[test]
+fn normal_textures_are_linear_numbers() {
+    let found = with(json!({ "normalTexture": { "index": 0, "scale": 0.5 } }));
+    let Some(Relief::Normals { picture, scale }) = &found.materials[0].relief else {
+        panic!("{:?}", found.materials[0].relief)
+    };
+    assert_eq!(
+        (*scale, bitmap(picture).wrap),
+        (0.5, [Wrap::Clamp, Wrap::Mirror])
+    );
+    // (128 + ½)/256 · 2.
+    assert_eq!(
+        bitmap(picture).at([0.5, 0.5]),
+        [257.0 / 256.0, 257.0 / 256.0, 257.0 / 256.0, 1.0]
+    );
+    assert_eq!(mesh(&found.shapes[0]).texture_coordinates.len(), 4);
+}
+
+#[test]
+fn normal_textures_of_other_coordinates_are_told() {
+    let material = |set: usize| {
+        json!({
+            "pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } },
+            "normalTexture": { "index": 0, "texCoord": set },
+        })
+    };
+    let told =
+        "glTF: normal textures are laid by the coordinates of the base colour's (materials: 1)";
+    for (set, is_told) in [(0, false), (1, true)] {
+        let found = with(material(set));
+        assert!(found.materials[0].relief.is_some());
+        assert_eq!(
+            found.warnings.iter().any(|warning| warning == told),
+            is_told
+        );
+    }
 }
 
 #[test]

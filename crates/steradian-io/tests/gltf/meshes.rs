@@ -206,3 +206,25 @@ fn elements_named_again_and_again_are_bounded() {
         "more than 1096528 elements in a file of this size"
     );
 }
+
+#[test]
+fn normals_of_all_vertices_are_kept() {
+    let with = |last: [f32; 3]| {
+        let mut buffer = Buffer::default();
+        let mut square = buffer.square();
+        let up = [0.0, 0.0, 2.0];
+        square["attributes"]["NORMAL"] = json!(buffer.floats(&[up, up, up, last]));
+        let entries = json!({ "meshes": [{ "primitives": [square] }], "nodes": [{ "mesh": 0 }] });
+        scene(entries, &buffer)
+    };
+    let found = with([0.0, 3.0, 4.0]);
+    let normals = &mesh(&found.shapes[0]).normals;
+    assert_eq!(normals[2..], [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]]);
+    let told = "glTF: normals of vertices are left out: some are missing, of no length or not finite (primitives: 1)";
+    assert!(!found.warnings.iter().any(|warning| warning == told));
+    for last in [[0.0; 3], [0.0, f32::NAN, 1.0]] {
+        let found = with(last);
+        assert!(mesh(&found.shapes[0]).normals.is_empty());
+        assert!(found.warnings.iter().any(|warning| warning == told));
+    }
+}

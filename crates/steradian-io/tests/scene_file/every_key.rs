@@ -73,8 +73,16 @@ fn the_file_holds_every_key() {
     for (section, tag) in SECTIONS {
         let allowed = allowed(&schema, section, tag);
         assert!(allowed.len() > 5, "{allowed:?}");
+        // Keys of all materials are in `relief`: their two exclude each other.
+        let is_shared = |key: &&String| key.ends_with("_map");
+        let [allowed, used] = [allowed, used(&file, section, tag)].map(|keys| {
+            keys.iter()
+                .filter(|key| !is_shared(key))
+                .cloned()
+                .collect::<BTreeSet<_>>()
+        });
         // The inline mesh and the meshes from files exclude each other's keys, so not every kind has all in one entry.
-        assert_eq!(allowed, used(&file, section, tag), "{section}");
+        assert_eq!(allowed, used, "{section}");
     }
     let inner = schema["$defs"]
         .as_object()

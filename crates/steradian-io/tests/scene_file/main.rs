@@ -6,6 +6,7 @@ mod models;
 mod mutations;
 mod problems;
 mod reading;
+mod relief;
 mod scenes;
 mod textures;
 mod spectra;

@@ -1,4 +1,4 @@
-//! Materials: reflection, opacity and emission.
+//! Materials: reflection, opacity, relief and emission.
 //!
 //! Opacity is α where the alpha mode is to blend, and α against the cutoff for a mask. How surfaces reflect is in
 //! [`reflection`](super::reflection).
@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use steradian::quantity::{Amount, Luminance};
 use steradian::scene::description::{
     EmissionAmount, EmissionDescription, LaneValues, MaterialDescription, Opacity, Pattern,
-    Placement, Texture,
+    Placement, Relief, Texture,
 };
 
 use super::document::{Document, part};
@@ -22,6 +22,7 @@ use super::notes::Notes;
 use super::reflection::{Base, textures_of};
 use super::schema::{Material, TextureInfo};
 use super::textures::{Textures, coordinate_set};
+use crate::import::image::Encoding;
 
 /// Which attributes the vertices of a primitive have.
 #[derive(Copy, Clone, Debug, PartialEq, Eq, Hash)]
@@ -115,7 +116,7 @@ impl<'d> Materials<'d> {
             model: reader.model()?,
             opacity: reader.opacity()?,
             media: reader.media(),
-            relief: None,
+            relief: reader.relief()?,
         });
         Ok(Finish {
             material: name,
@@ -173,7 +174,10 @@ impl Reader<'_, '_> {
     /// The texture, if there are coordinates to lay it by.
     pub fn laid(&mut self, info: Option<&TextureInfo>) -> Result<Vec<Texture>, GltfError> {
         match info.filter(|_| self.has_coordinates(info)) {
-            Some(info) => Ok(vec![self.textures.texture(info, &self.place)?]),
+            Some(info) => {
+                let texture = self.textures.texture(info, Encoding::Srgb, &self.place)?;
+                Ok(vec![texture])
+            }
             None => Ok(vec![]),
         }
     }
@@ -206,6 +210,21 @@ impl Reader<'_, '_> {
             textures,
             cutoff,
         }))
+    }
+
+    fn relief(&mut self) -> Result<Option<Relief>, GltfError> {
+        let info = self.material.normal_texture.as_ref();
+        let Some(info) = info.filter(|_| self.has_coordinates(info)) else {
+            return Ok(None);
+        };
+        let first = textures_of(self.material).into_iter().next();
+        if first.map(coordinate_set) != Some(coordinate_set(info)) {
+            let text = "normal textures are laid by the coordinates of the base colour's";
+            self.notes.count("materials", text, &self.place);
+        }
+        let picture = self.textures.texture(info, Encoding::Linear, &self.place)?;
+        let scale = info.scale.unwrap_or(1.0);
+        Ok(Some(Relief::Normals { picture, scale }))
     }
 
     fn emission(&mut self) -> Result<Option<EmissionDescription>, GltfError> {

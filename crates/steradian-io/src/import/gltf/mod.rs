@@ -4,7 +4,8 @@
 //! |---|---|
 //! | metres, y up | metres, z up: (x, y, z) becomes (x, −z, y) |
 //! | nodes, `EXT_mesh_gpu_instancing` | one shape for each primitive of each copy; copies share their triangles |
-//! | triangles, strips, fans; sparse and quantised accessors | meshes; normals and tangents are passed over |
+//! | triangles, strips, fans; sparse and quantised accessors | meshes with their normals; tangents are passed over |
+//! | normal textures | relief |
 //! | base colour: factor, texture, vertex colour | Lambertian reflectance in linear Rec.709, for metals too |
 //! | alpha: mask, blend; `KHR_materials_transmission` | opacity |
 //! | emission, `KHR_materials_emissive_strength` | luminance in cd/m² |

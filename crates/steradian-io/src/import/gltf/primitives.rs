@@ -1,7 +1,7 @@
-//! Primitives: positions, colours and texture coordinates of vertices, and the triangles they form.
+//! Primitives: positions, normals, colours and texture coordinates of vertices, and the triangles they form.
 //!
 //! Triangles, strips and fans are read; points and lines have no area. Only the vertices that triangles use are kept.
-//! Normals and tangents are passed over: a surface is as flat as its triangles.
+//! Tangents are passed over: they follow from the texture coordinates.
 
 use steradian::geometry::Point;
 use steradian::scene::description::MeshData;
@@ -10,6 +10,7 @@ use super::accessors::Elements;
 use super::document::Document;
 use super::error::GltfError;
 use super::schema::Primitive;
+use crate::import::normals::unit;
 
 /// Reads the triangles of a primitive, with the texture coordinates of one set; `None` if it has none.
 pub(super) fn read(
@@ -45,7 +46,7 @@ pub(super) fn read(
         colors: each(colors, &used, |color: [f64; 4]| {
             color.map(|lane| lane.clamp(0.0, 1.0) as f32)
         })?,
-        normals: vec![],
+        normals: normals(attribute("NORMAL", &["VEC3"])?, &used),
     }))
 }
 
@@ -137,6 +138,17 @@ fn each<const N: usize, T>(
     }
     let element = |vertex: &u32| elements.at(*vertex as usize).map(&convert);
     used.iter().map(element).collect()
+}
+
+/// The normals of the used vertices; none unless all have a direction.
+fn normals(elements: Option<Elements<'_>>, used: &[u32]) -> Vec<[f32; 3]> {
+    let normal = |vertex: &u32| {
+        let elements = elements.as_ref()?;
+        let vertex = Some(*vertex as usize).filter(|vertex| *vertex < elements.count())?;
+        unit(elements.at(vertex).ok()?)
+    };
+    let normals: Option<Vec<_>> = used.iter().map(normal).collect();
+    normals.unwrap_or_default()
 }
 
 #[cfg(test)]

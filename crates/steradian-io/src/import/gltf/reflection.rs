@@ -2,7 +2,7 @@
 //!
 //! | extension | read | left out |
 //! |---|---|---|
-//! | core | base colour, metallic (blue), roughness (green) | occlusion |
+//! | core | base colour, metallic (blue), roughness (green), normals | occlusion |
 //! | KHR_materials_ior, _specular | index; strength (alpha) and colour of highlights | an index of 0 |
 //! | KHR_materials_transmission | its share (red) | |
 //! | KHR_materials_volume | attenuation; a thickness makes the surface that of a solid | how thick it is |
@@ -85,6 +85,7 @@ pub(super) fn textures_of(material: &Material) -> Vec<&TextureInfo> {
         let textures = [&sheen.sheen_color_texture, &sheen.sheen_roughness_texture];
         found.extend(textures.map(Option::as_ref));
     }
+    found.push(material.normal_texture.as_ref());
     found.into_iter().flatten().collect()
 }
 

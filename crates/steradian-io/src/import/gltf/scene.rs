@@ -22,6 +22,7 @@ use super::schema::{Node, Primitive};
 use super::textures::Textures;
 use super::uri::Resources;
 use super::{cameras, extensions, lights, primitives};
+use crate::import::normals;
 use crate::import::scene::y_to_z_up;
 
 /// More triangles than this are refused.
@@ -203,6 +204,9 @@ impl Builder<'_> {
             self.notes.count("primitives", text, place);
             return Ok(None);
         };
+        if mesh.normals.is_empty() && primitive.attributes.contains_key("NORMAL") {
+            self.notes.count("primitives", normals::LEFT_OUT, place);
+        }
         let attributes = Attributes {
             coordinates: !mesh.texture_coordinates.is_empty(),
             colors: !mesh.colors.is_empty(),

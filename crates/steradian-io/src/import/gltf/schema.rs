@@ -102,15 +102,18 @@ objects! {
 
     Texture { sampler: Option<usize>, source: Option<usize>, }
 
+    /// The scale is that of a normal texture.
     TextureInfo {
         index: usize,
         tex_coord: usize,
+        scale: Option<f64>,
         extensions: TextureExtensions,
     }
 
     Material {
         name: Option<String>,
         pbr_metallic_roughness: MetallicRoughness,
+        normal_texture: Option<TextureInfo>,
         emissive_factor: [f64; 3],
         emissive_texture: Option<TextureInfo>,
         alpha_mode: Option<String>,

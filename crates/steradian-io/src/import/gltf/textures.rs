@@ -64,10 +64,15 @@ impl<'d> Textures<'d> {
     }
 
     /// The texture that `place` names.
-    pub fn texture(&mut self, info: &TextureInfo, place: &str) -> Result<Texture, GltfError> {
+    pub fn texture(
+        &mut self,
+        info: &TextureInfo,
+        encoding: Encoding,
+        place: &str,
+    ) -> Result<Texture, GltfError> {
         Ok(Texture {
             placement: placed(info, place)?,
-            pattern: Pattern::Bitmap(self.bitmap(info.index, Encoding::Srgb, place)?),
+            pattern: Pattern::Bitmap(self.bitmap(info.index, encoding, place)?),
         })
     }
 

@@ -1,4 +1,5 @@
-//! From the statements of an OBJ file to meshes: one vertex for each pair of position and texture coordinates.
+//! From the statements of an OBJ file to meshes: one vertex for each position with its texture coordinates
+//! and normal.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -9,6 +10,7 @@ use steradian::scene::description::MeshData;
 use super::mtl::Library;
 use super::{Corner, ObjError, ObjFault, Reader, Run};
 use crate::import::mesh_file::{MeshFile, MeshPart, vertex_colors};
+use crate::import::normals::LEFT_OUT;
 
 /// The meshes of all runs, with the materials that they use.
 pub(super) fn assemble(mut reader: Reader, mut library: Library) -> Result<MeshFile, ObjError> {
@@ -37,7 +39,11 @@ pub(super) fn assemble(mut reader: Reader, mut library: Library) -> Result<MeshF
         }
         let material = material.or_else(|| (!reader.colors.is_empty()).then(vertex_colors));
         let material = material.map(|material| file.index_of(material));
-        let mesh = mesh(&reader, run).ok_or(TOO_MANY)?;
+        let has_normals = run.corners().any(|corner| corner.normal.is_some());
+        let mesh = mesh(&reader, &run).ok_or(TOO_MANY)?;
+        if has_normals && mesh.normals.is_empty() {
+            file.warn(LEFT_OUT);
+        }
         file.parts.push(MeshPart {
             mesh: Arc::new(mesh),
             material,
@@ -53,17 +59,18 @@ const TOO_MANY: ObjError = ObjError {
 };
 
 /// The mesh of one run; `None` if it has more vertices than can be numbered.
-fn mesh(reader: &Reader, run: Run) -> Option<MeshData> {
-    let corners = || run.triangles.iter().flatten();
-    let is_placed = corners().all(|corner| corner.coordinates.is_some());
+fn mesh(reader: &Reader, run: &Run) -> Option<MeshData> {
+    let is_placed = run.corners().all(|corner| corner.coordinates.is_some());
+    let is_smooth = run.corners().all(|corner| reader.normal(corner).is_some());
     let mut number_of: HashMap<Corner, u32> = HashMap::new();
     let mut mesh = MeshData::default();
     for triangle in &run.triangles {
         let mut numbers = [0; 3];
         for (number, corner) in numbers.iter_mut().zip(triangle) {
             let key = Corner {
+                vertex: corner.vertex,
                 coordinates: corner.coordinates.filter(|_| is_placed),
-                ..*corner
+                normal: corner.normal.filter(|_| is_smooth),
             };
             let next = u32::try_from(mesh.vertices.len()).ok()?;
             *number = *number_of.entry(key).or_insert(next);
@@ -83,6 +90,7 @@ fn add(mesh: &mut MeshData, reader: &Reader, corner: Corner) {
         .coordinates
         .map(|index| reader.coordinates[index as usize]);
     mesh.texture_coordinates.extend(coordinates);
+    mesh.normals.extend(reader.normal(&corner));
     let colour = reader.colors.get(vertex).map(|rgb| {
         let [red, green, blue] = rgb.map(|code| linear_from_srgb(code) as f32);
         [red, green, blue, 1.0]

@@ -1,14 +1,15 @@
-//! Wavefront OBJ: polygons by material, with texture coordinates and colours of vertices.
+//! Wavefront OBJ: polygons by material, with texture coordinates, normals and colours of vertices.
 //!
 //! | statement | what is read |
 //! |---|---|
 //! | `v x y z` | a vertex; `v x y z r g b` with its colour, in sRGB |
 //! | `vt u v` | texture coordinates, v up |
+//! | `vn x y z` | a normal of any length |
 //! | `f a b c …` | a polygon, each corner `7`, `7/1`, `7//2`, `7/1/2` or negative: from the last one back |
 //! | `usemtl NAME`, `mtllib FILE` | materials: see [`mtl`] |
 //!
-//! Faces of the same material are one mesh, whatever their objects (`o`) and groups (`g`). Normals are passed over: a normal
-//! is that of the triangle. Polygons are cut into triangles, concave ones by ear clipping. Free-form curves and surfaces
+//! Faces of the same material are one mesh, whatever their objects (`o`) and groups (`g`). Normals count where all
+//! corners of a mesh have one; elsewhere they are those of the triangles. Polygons are cut into triangles, concave ones by ear clipping. Free-form curves and surfaces
 //! are refused.
 //!
 //! ```
@@ -36,6 +37,7 @@ use steradian::geometry::Point;
 use thiserror::Error;
 
 use super::mesh_file::MeshFile;
+use super::normals;
 use super::polygon::{Cutter, PolygonTooLarge};
 use crate::files::Files;
 use lines::{logical_lines, numbers, statement};
@@ -80,6 +82,14 @@ pub enum ObjFault {
         number: i64,
         /// Texture coordinates so far.
         coordinates: usize,
+    },
+    /// A face with a number of a normal that none before it has.
+    #[error("there is no normal {number}: {normals} precede this line")]
+    NoSuchNormal {
+        /// The number in the file.
+        number: i64,
+        /// Normals so far.
+        normals: usize,
     },
     /// A face of fewer than three corners.
     #[error("a face needs three corners or more, found {0}")]
@@ -141,6 +151,7 @@ pub fn read(bytes: &[u8], directory: &Path, files: &dyn Files) -> Result<MeshFil
 struct Corner {
     vertex: u32,
     coordinates: Option<u32>,
+    normal: Option<u32>,
 }
 
 /// The triangles of one material.
@@ -151,12 +162,20 @@ struct Run {
     triangles: Vec<[Corner; 3]>,
 }
 
+impl Run {
+    fn corners(&self) -> impl Iterator<Item = &Corner> {
+        self.triangles.iter().flatten()
+    }
+}
+
 #[derive(Default)]
 struct Reader {
     vertices: Vec<Point>,
     /// sRGB of each vertex so far; dropped when one has none.
     colors: Vec<[f64; 3]>,
     coordinates: Vec<[f32; 2]>,
+    /// `None` for one without a direction.
+    normals: Vec<Option<[f32; 3]>>,
     runs: Vec<Run>,
     run_of: HashMap<String, usize>,
     run: usize,
@@ -176,6 +195,7 @@ impl Reader {
                     coordinates(rest).ok_or_else(|| ObjFault::Coordinates(text.to_owned()))?;
                 self.coordinates.push(coordinates);
             }
+            "vn" => self.normals.push(normal(rest)),
             "f" => self.face(rest)?,
             "usemtl" => self.use_material(rest),
             "mtllib" => self.libraries.push(rest.to_owned()),
@@ -248,24 +268,41 @@ impl Reader {
         });
         let number = numbers.next().transpose()?.flatten();
         let number = number.ok_or_else(|| ObjFault::Corner(word.to_owned()))?;
-        let vertices = self.vertices.len();
-        let vertex =
-            counted(number, vertices).ok_or(ObjFault::NoSuchVertex { number, vertices })?;
-        let coordinates = match numbers.next().transpose()?.flatten() {
-            None => None,
-            Some(number) => {
-                let coordinates = self.coordinates.len();
-                let missing = ObjFault::NoSuchCoordinates {
-                    number,
-                    coordinates,
-                };
-                Some(counted(number, coordinates).ok_or(missing)?)
-            }
-        };
+        let coordinates = numbers.next().transpose()?.flatten();
+        let normal = numbers.next().transpose()?.flatten();
         Ok(Corner {
-            vertex,
-            coordinates,
+            vertex: self.numbered_vertex(number)?,
+            coordinates: coordinates
+                .map(|number| self.numbered_coordinates(number))
+                .transpose()?,
+            normal: normal
+                .map(|number| self.numbered_normal(number))
+                .transpose()?,
         })
+    }
+
+    fn numbered_vertex(&self, number: i64) -> Result<u32, ObjFault> {
+        let vertices = self.vertices.len();
+        counted(number, vertices).ok_or(ObjFault::NoSuchVertex { number, vertices })
+    }
+
+    fn numbered_coordinates(&self, number: i64) -> Result<u32, ObjFault> {
+        let coordinates = self.coordinates.len();
+        let missing = ObjFault::NoSuchCoordinates {
+            number,
+            coordinates,
+        };
+        counted(number, coordinates).ok_or(missing)
+    }
+
+    fn numbered_normal(&self, number: i64) -> Result<u32, ObjFault> {
+        let normals = self.normals.len();
+        counted(number, normals).ok_or(ObjFault::NoSuchNormal { number, normals })
+    }
+
+    /// The normal of a corner, if it has one with a direction.
+    fn normal(&self, corner: &Corner) -> Option<[f32; 3]> {
+        self.normals[corner.normal? as usize]
     }
 }
 
@@ -285,6 +322,13 @@ fn coordinates(text: &str) -> Option<[f32; 2]> {
     let u = *numbers.first()? as f32;
     let v = numbers.get(1).map_or(0.0, |v| *v as f32);
     (u.is_finite() && v.is_finite()).then_some([u, v])
+}
+
+fn normal(text: &str) -> Option<[f32; 3]> {
+    let &[x, y, z] = &numbers(text)?[..] else {
+        return None;
+    };
+    normals::unit([x, y, z])
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use steradian::scene::description::{LaneValues, MaterialModel, MeshData};
 use super::{ObjFault, read as read_file};
 use crate::files::MemoryFiles;
 use crate::import::mesh_file::MeshFile;
+use crate::import::normals;
 
 fn read(bytes: &[u8]) -> Result<MeshFile, super::ObjError> {
     read_with(bytes, "")
@@ -47,6 +48,36 @@ fn a_vertex_is_split_where_its_texture_coordinates_differ() {
         mesh.texture_coordinates,
         [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0], [0.0, 0.0]]
     );
+}
+
+#[test]
+fn a_vertex_is_split_where_its_normals_differ() {
+    let text =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 2\nvn 0 3 4\nf 1//1 2//1 3//1\nf 1//1 3//-1 2//1\n";
+    let mesh = mesh(text);
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 3, 1]]);
+    assert_eq!(mesh.vertices[3], mesh.vertices[2]);
+    let up = [0.0, 0.0, 1.0];
+    assert_eq!(mesh.normals, [up, up, up, [0.0, 0.6, 0.8]]);
+}
+
+#[test]
+fn normals_are_left_out_unless_every_corner_has_one() {
+    let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n";
+    for rest in [
+        "f 1//1 2//1 3\n",
+        "vn 0 0 0\nf 1//1 2//1 3//2\n",
+        "vn 0 0 nan\nf 1//1 2//1 3//2\n",
+        "vn 0 1\nf 1//1 2//1 3//2\n",
+    ] {
+        let file = read(format!("{points}{rest}").as_bytes()).unwrap();
+        let mesh = &file.parts[0].mesh;
+        assert!(
+            mesh.normals.is_empty() && mesh.vertices.len() == 3,
+            "{rest}"
+        );
+        assert_eq!(file.warnings, [normals::LEFT_OUT]);
+    }
 }
 
 #[test]
@@ -157,6 +188,13 @@ fn errors_name_their_line() {
         ("f -4 1 2", missing(-4)),
         ("f 1 2 /3", ObjFault::Corner("/3".into())),
         (
+            "f 1 2 3//1",
+            ObjFault::NoSuchNormal {
+                number: 1,
+                normals: 0,
+            },
+        ),
+        (
             "f 1 2 3/1",
             ObjFault::NoSuchCoordinates {
                 number: 1,
@@ -192,6 +230,7 @@ proptest! {
                 prop_assert!(part.material.is_none_or(|material| material < file.materials.len()));
                 let coordinates = mesh.texture_coordinates.len();
                 prop_assert!(coordinates == 0 || coordinates == mesh.vertices.len());
+                prop_assert!(mesh.normals.is_empty() || mesh.normals.len() == mesh.vertices.len());
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! | element | what is read |
 //! |---|---|
-//! | `vertex` | `x y z`; texture coordinates `s t`, `u v` or `texture_u texture_v`; `red green blue alpha` |
+//! | `vertex` | `x y z`; texture coordinates `s t`, `u v` or `texture_u texture_v`; `red green blue alpha`; normals `nx ny nz` |
 //! | `face` | the list `vertex_indices` or `vertex_index`, cut into triangles |
 //! | `tristrips` | the same list: strips of triangles, each ended by −1 |
 //!

@@ -3,6 +3,7 @@ use steradian::geometry::Point;
 
 use super::read;
 use crate::import::mesh_file::MeshFile;
+use crate::import::normals;
 
 const TYPES: &str = "property float x\nproperty double y\nproperty short z\nproperty float s\nproperty float t\n\
 property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\nproperty list char ushort more\n";
@@ -218,6 +219,25 @@ fn what_is_wrong_is_said_with_its_place() {
     );
 }
 
+fn with_normals(third: &str) -> MeshFile {
+    let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+property float nx\nproperty float ny\nproperty float nz\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    let body = format!("0 0 0 0 0 2\n1 0 0 0 3 4\n0 1 0 {third}\n3 0 1 2\n");
+    read(format!("{header}{body}").as_bytes()).unwrap()
+}
+
+#[test]
+fn normals_are_made_as_long_as_one() {
+    let file = with_normals("0 0 -1");
+    let expected = [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8], [0.0, 0.0, -1.0]];
+    assert_eq!(file.parts[0].mesh.normals, expected);
+    for third in ["0 0 0", "0 nan 0"] {
+        let file = with_normals(third);
+        assert!(file.parts[0].mesh.normals.is_empty());
+        assert_eq!(file.warnings, [normals::LEFT_OUT]);
+    }
+}
+
 fn is_sound(file: &MeshFile) -> bool {
     file.parts.iter().all(|part| {
         let mesh = &part.mesh;
@@ -225,9 +245,13 @@ fn is_sound(file: &MeshFile) -> bool {
         let count = mesh.vertices.len();
         corners.into_iter().all(|corner| (*corner as usize) < count)
             && mesh.vertices.iter().all(|vertex| vertex.is_finite())
-            && [mesh.colors.len(), mesh.texture_coordinates.len()]
-                .iter()
-                .all(|n| *n == 0 || *n == count)
+            && [
+                mesh.colors.len(),
+                mesh.texture_coordinates.len(),
+                mesh.normals.len(),
+            ]
+            .iter()
+            .all(|n| *n == 0 || *n == count)
     })
 }
 

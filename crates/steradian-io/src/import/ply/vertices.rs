@@ -1,4 +1,4 @@
-//! The element `vertex`: positions, texture coordinates and colours.
+//! The element `vertex`: positions, texture coordinates, colours and normals.
 
 use steradian::geometry::Point;
 use steradian::material::linear_from_srgb;
@@ -6,9 +6,10 @@ use steradian::scene::description::MeshData;
 
 use super::header::{Element, Form, Scalar};
 use super::{Body, PlyError};
+use crate::import::normals;
 
 /// The names of each number that is kept of a vertex, with the alternatives.
-const NAMES: [&[&str]; 9] = [
+const NAMES: [&[&str]; COUNT] = [
     &["x"],
     &["y"],
     &["z"],
@@ -18,10 +19,15 @@ const NAMES: [&[&str]; 9] = [
     &["green", "diffuse_green"],
     &["blue", "diffuse_blue"],
     &["alpha", "diffuse_alpha"],
+    &["nx"],
+    &["ny"],
+    &["nz"],
 ];
+const COUNT: usize = 12;
 const COORDINATES: std::ops::Range<usize> = 3..5;
 const COLOUR: std::ops::Range<usize> = 5..8;
 const ALPHA: usize = 8;
+const NORMAL: std::ops::Range<usize> = 9..12;
 
 /// Which property holds each number.
 struct Layout<'a> {
@@ -44,18 +50,26 @@ pub(super) fn read(element: &Element, body: &mut Body<'_>) -> Result<MeshData, P
         ..MeshData::default()
     };
     let (has_coordinates, encoding) = (layout.has(COORDINATES), layout.colour_encoding(body));
+    let has_normals = layout.has(NORMAL);
     for index in 0..element.count {
         let numbers = layout.read(body, index)?;
-        let [x, y, z, u, v, ..] = numbers;
+        let [x, y, z, u, v, .., nx, ny, nz] = numbers;
         mesh.vertices.push(Point::new(x, y, z));
         if has_coordinates {
             mesh.texture_coordinates.push([u as f32, v as f32]);
+        }
+        if has_normals {
+            mesh.normals.extend(normals::unit([nx, ny, nz]));
         }
         mesh.colors
             .extend(encoding.map(|encoding| encoding.linear(&numbers)));
         if !is_sound(&mesh) {
             return Err(PlyError::Vertex(index + 1));
         }
+    }
+    if has_normals && mesh.normals.len() < mesh.vertices.len() {
+        body.warnings.push(normals::LEFT_OUT.into());
+        mesh.normals.clear();
     }
     Ok(mesh)
 }
@@ -91,8 +105,8 @@ impl<'a> Layout<'a> {
         roles.all(|role| self.roles.contains(&Some(role)))
     }
 
-    fn read(&self, body: &mut Body<'_>, index: usize) -> Result<[f64; 9], PlyError> {
-        let mut numbers = [0.0; 9];
+    fn read(&self, body: &mut Body<'_>, index: usize) -> Result<[f64; COUNT], PlyError> {
+        let mut numbers = [0.0; COUNT];
         for (property, role) in self.element.properties.iter().zip(&self.roles) {
             let missing = match (property.form, role) {
                 (Form::One(scalar), Some(role)) => body
@@ -151,8 +165,8 @@ struct ColourEncoding {
 
 impl ColourEncoding {
     /// Linear Rec.709 and alpha.
-    fn linear(self, numbers: &[f64; 9]) -> [f32; 4] {
-        let [.., red, green, blue, alpha] = *numbers;
+    fn linear(self, numbers: &[f64; COUNT]) -> [f32; 4] {
+        let [.., red, green, blue, alpha, _, _, _] = *numbers;
         let [red, green, blue] = [red, green, blue].map(|number| match self.greatest {
             None => number,
             Some(greatest) => linear_from_srgb(number / greatest),

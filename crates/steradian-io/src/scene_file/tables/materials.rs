@@ -3,6 +3,7 @@
 use steradian::quantity::{Absorption, Angle, Quantity};
 
 use super::principled::PRINCIPLED;
+use super::relief::{BUMP_MAP_KEY, NORMAL_MAP_KEY};
 use super::{MATERIAL, OPACITY, VARYING};
 use crate::scene_file::keys::{Family, Key, Kind, Value};
 
@@ -139,7 +140,7 @@ pub const MATERIALS: Family = Family {
     noun: "material",
     tag: "model",
     untagged: Some("two-sided"),
-    common: &[],
+    common: &[NORMAL_MAP_KEY, BUMP_MAP_KEY],
     kinds: &[
         Kind::new(
             "lambertian",
@@ -162,7 +163,8 @@ pub const MATERIALS: Family = Family {
                 ),
                 Key::required("back", MATERIAL, "Material of the other side"),
             ],
-        ),
+        )
+        .alone(),
         Kind::new(
             "oren-nayar",
             "Rough diffuse reflection of facets that are Lambertian, single scattering",

@@ -6,6 +6,7 @@
 mod lights;
 mod materials;
 mod principled;
+mod relief;
 mod schedules;
 mod sensors;
 mod shapes;
@@ -21,6 +22,7 @@ use super::value::Read;
 
 pub use lights::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
 pub use materials::{ABSORPTION, MATERIALS};
+pub use relief::{BUMP_MAP, NORMAL_MAP};
 pub use schedules::{SCHEDULE, SCHEDULE_TABLE};
 pub use sensors::{GRID, PROJECTION_NAMES, SENSORS};
 pub use shapes::{

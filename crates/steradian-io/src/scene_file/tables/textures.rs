@@ -16,25 +16,25 @@ const ENCODING: Key = Key::default(
     "\"srgb\"",
     "What integers in the picture stand for; floats are linear",
 );
-const SCALE: Key = Key::default(
+pub const SCALE: Key = Key::default(
     "scale",
     PAIR,
     "[1, 1]",
     "How often it is repeated along each texture coordinate",
 );
-const OFFSET: Key = Key::default(
+pub const OFFSET: Key = Key::default(
     "offset",
     PAIR,
     "[0, 0]",
     "Added to the texture coordinates after `scale`",
 );
-const WRAP: Key = Key::default(
+pub const WRAP: Key = Key::default(
     "wrap",
     Value::Choice(&["repeat", "mirror", "clamp"]),
     "\"repeat\"",
     "How the picture goes on beyond its edge",
 );
-const INTERPOLATION: Key = Key::default(
+pub const INTERPOLATION: Key = Key::default(
     "interpolation",
     Value::Choice(&["bilinear", "nearest"]),
     "\"bilinear\"",
