@@ -10,10 +10,12 @@
 //! | p | density of the sampled direction | 1/sr |
 
 mod area;
+mod far_field;
 mod point;
 mod spot;
 
 pub use area::AreaLight;
+pub use far_field::{FarField, FarFieldError, FarFieldSample, Planes};
 pub use point::PointLight;
 pub use spot::{Beam, SpotLight};
 
