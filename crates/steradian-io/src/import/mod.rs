@@ -10,6 +10,7 @@ pub mod image;
 mod mesh_file;
 mod normals;
 pub mod obj;
+pub mod photometry;
 pub mod ply;
 pub mod points;
 pub mod polygon;
