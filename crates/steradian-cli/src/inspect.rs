@@ -1,8 +1,9 @@
-//! `steradian inspect`: what a scene, mesh or measured surface holds, with its totals, and what is wrong with it, before anything is simulated.
+//! `steradian inspect`: what a scene, mesh, luminaire or measured surface holds, with its totals, and what is wrong with it, before anything is simulated.
 
 mod contents;
 mod findings;
 mod json;
+mod luminaire;
 mod measured;
 mod triangles;
 
@@ -13,6 +14,7 @@ use steradian::quantity::Length;
 use steradian::scene::Scene;
 use steradian::transport::unsampled;
 use steradian_io::import::bsdf::is_measured;
+use steradian_io::import::photometry::is_luminaire;
 
 use crate::load::Loaded;
 use crate::status::{Failure, Outcome};
@@ -24,7 +26,7 @@ use contents::plural;
 use findings::Finding;
 use triangles::Triangles;
 
-/// What a scene, mesh or measured surface holds: shapes with areas, materials, lights with their flux, sensors, and what is wrong
+/// What a scene, mesh, luminaire or measured surface holds: shapes with areas, materials, lights with their flux, sensors, and what is wrong
 ///
 /// Nothing is simulated. All triangles of the scene together are examined as one surface, in which vertices at the same place
 /// are one. Told are edges that one triangle alone has, as light leaks there (not those of sheets, which lie in a plane and
@@ -36,10 +38,14 @@ use triangles::Triangles;
 /// Of a measured surface: header, blocks, the shares of the light that it reflects and transmits (means over the azimuths, and the
 /// largest sum), by how much it is not reciprocal, and what was mended or passed over. Above is the side of the normal, the
 /// interior; WINDOW calls light from there "Back".
+///
+/// Of a luminaire (IES LM-63, EULUMDAT): header, flux by exact integration of the table as it is interpolated, light output ratio,
+/// efficacy, greatest intensity, beam angle (half of the greatest intensity of a plane) and field angle (a tenth), CIE flux code,
+/// luminous opening.
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
-    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL; BSDF XML, MERL .binary, RGL .bsdf)
+    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL; BSDF XML, MERL .binary, RGL .bsdf; IES, LDT)
     scene: PathBuf,
     /// How to print
     #[arg(long, value_enum, default_value_t)]
@@ -57,7 +63,8 @@ Examples:
   steradian inspect scenes/cornell-box.toml
   steradian inspect model.obj --weld 0.1mm --strict
   steradian inspect scenes/lamps-equal.toml --format json
-  steradian inspect blinds.xml --strict";
+  steradian inspect blinds.xml --strict
+  steradian inspect downlight.ies";
 
 /// What is known of a scene beyond the scene itself.
 struct Inspection<'a> {
@@ -75,6 +82,9 @@ struct Inspection<'a> {
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     if is_measured(&arguments.scene) {
         return measured::run(&arguments.scene, arguments.format, arguments.strict);
+    }
+    if is_luminaire(&arguments.scene) {
+        return luminaire::run(&arguments.scene, arguments.format, arguments.strict);
     }
     let loaded = load::scene(&arguments.scene)?;
     let inspection = Inspection::new(&loaded, arguments.weld);

@@ -190,3 +190,37 @@ fn a_broken_measured_surface_is_refused_with_its_place() {
         "line 109, column 19: Transmission Front: 21025 values are needed, 4 were found"
     ));
 }
+
+fn luminaire(name: &str) -> String {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/photometry/");
+    format!("{folder}{name}")
+}
+
+/// 45 cd everywhere: 180π lm, of which lamps of 2 × 1000 lm are told to give 2000; a quarter of the sphere's half lies within
+/// 41.4° of the nadir.
+#[test]
+fn a_luminaire_is_told_with_its_flux_and_its_beams() {
+    let object = json(&luminaire("isotropic_100cd.ies"));
+    assert_eq!(object["schema"], "steradian.inspect-luminaire/1");
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert!(
+        (number(&object["flux"]["value"]) / (180.0 * std::f64::consts::PI) - 1.0).abs() < 1e-12
+    );
+    assert_eq!(object["rated_flux"], 2000.0);
+    assert_eq!(object["greatest_intensity"]["value"], 45.0);
+    let code: Vec<f64> = object["flux_code"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(number)
+        .collect();
+    assert!((code[0] - 0.25).abs() < 1e-12 && (code[3] - 0.5).abs() < 1e-12);
+    let text = steradian(&["inspect", &luminaire("tilt_include.ies")]).fine();
+    assert!(text.contains("factors of tilt"), "{text}");
+}
+
+#[test]
+fn a_broken_luminaire_is_refused_with_its_place() {
+    let message = steradian(&["inspect", &luminaire("mdl_test_malformed.ies")]).error();
+    assert!(message.contains("mdl_test_malformed.ies:3:1"), "{message}");
+}
