@@ -1,6 +1,6 @@
 //! Scenes in a few words.
 
-use steradian::brdf::Slopes;
+use steradian::brdf::{Shadowing, Slopes};
 use steradian::geometry::{Point, Transform, Vector};
 use steradian::material::{Recipe, Roughness, Scalar};
 use steradian::quantity::{
@@ -83,6 +83,7 @@ pub fn rough(alpha: f64, multiple_scattering: bool) -> Roughness {
     Roughness {
         slopes: Slopes::Ggx,
         alpha: [alpha; 2],
+        shadowing: Shadowing::HeightCorrelated,
         multiple_scattering,
     }
 }

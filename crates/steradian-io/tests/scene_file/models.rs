@@ -64,20 +64,24 @@ fn metals() {
         roughness: None,
     };
     assert_eq!(recipe("silver"), silver);
-    let rough = |slopes, alpha, multiple_scattering| Recipe::Conductor {
+    let rough = |slopes, alpha, shadowing, multiple_scattering| Recipe::Conductor {
         eta: grey(0.05),
         kappa: grey(4.2),
         roughness: Some(Roughness {
             slopes,
             alpha,
+            shadowing,
             multiple_scattering,
         }),
     };
     assert_eq!(
         recipe("brushed"),
-        rough(Slopes::Beckmann, [0.125, 0.5], false)
+        rough(Slopes::Beckmann, [0.125, 0.5], Shadowing::Separable, false)
     );
-    assert_eq!(recipe("cast"), rough(Slopes::Ggx, [0.5; 2], true));
+    assert_eq!(
+        recipe("cast"),
+        rough(Slopes::Ggx, [0.5; 2], Shadowing::HeightCorrelated, true)
+    );
 }
 
 #[test]
@@ -104,6 +108,7 @@ fn glass() {
         roughness: Some(Roughness {
             slopes: Slopes::Ggx,
             alpha: [0.25; 2],
+            shadowing: Shadowing::HeightCorrelated,
             multiple_scattering: true,
         }),
     };
@@ -126,6 +131,7 @@ fn coats_and_gloss() {
     let rough = |alpha| Roughness {
         slopes: Slopes::Ggx,
         alpha,
+        shadowing: Shadowing::HeightCorrelated,
         multiple_scattering: true,
     };
     assert_eq!(recipe("eggshell"), plastic(Some(rough([0.25, 0.5]))));

@@ -8,7 +8,7 @@ use std::sync::Arc;
 pub use super::appearance::{
     Opacity, Pattern, Placement, Texture, Varying, absorption_of_attenuation,
 };
-pub use crate::brdf::Slopes;
+pub use crate::brdf::{Shadowing, Slopes};
 use crate::geometry::{Point, Transform, Vector};
 pub use crate::material::{
     Bitmap, Interpolation, Media, Picture, PrincipledRecipe, RadianceKind, Recipe, Roughness,

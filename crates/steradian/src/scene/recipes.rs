@@ -183,7 +183,9 @@ impl Turn<'_, Tint, Scalar> for AtFactors<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::brdf::{Brdf, ComplexIndex, Facets, OrenNayar, Pane, RoughConductor, Slopes};
+    use crate::brdf::{
+        Brdf, ComplexIndex, Facets, OrenNayar, Pane, RoughConductor, Shadowing, Slopes,
+    };
     use crate::geometry::Direction;
     use crate::material::{ColorLanes, Material, Media, Model, Roughness, Site};
     use crate::quantity::Spectrum;
@@ -247,6 +249,7 @@ mod tests {
         };
         let roughness = Roughness {
             slopes: Slopes::Ggx,
+            shadowing: Shadowing::HeightCorrelated,
             alpha: [0.5; 2],
             multiple_scattering: true,
         };

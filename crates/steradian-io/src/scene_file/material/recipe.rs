@@ -2,7 +2,7 @@
 
 use steradian::quantity::Angle;
 use steradian::scene::description::{
-    Glass, LaneValues, RadianceKind, Recipe, Roughness, Scalar, Slopes, Varying,
+    Glass, LaneValues, RadianceKind, Recipe, Roughness, Scalar, Shadowing, Slopes, Varying,
 };
 
 use super::{Named, principled};
@@ -11,6 +11,7 @@ use crate::scene_file::fields::Fields;
 use crate::scene_file::value::choices;
 
 choices! { Slopes, "ggx" => Self::Ggx, "beckmann" => Self::Beckmann }
+choices! { Shadowing, "height-correlated" => Self::HeightCorrelated, "separable" => Self::Separable }
 
 /// The model of this kind.
 pub(super) fn read(kind: &str, fields: &Fields<'_>) -> Option<Recipe<Varying, Scalar>> {
@@ -164,10 +165,12 @@ pub(super) fn roughness_of(kind: &str, fields: &Fields<'_>) -> Option<Option<Rou
 
 fn roughness(fields: &Fields<'_>) -> Option<Roughness> {
     let (alpha, slopes) = (alpha(fields), fields.get("distribution"));
+    let shadowing = fields.get("shadowing");
     let multiple_scattering = fields.get("multiple_scattering");
     Some(Roughness {
         slopes: slopes?,
         alpha: alpha?,
+        shadowing: shadowing?,
         multiple_scattering: multiple_scattering?,
     })
 }

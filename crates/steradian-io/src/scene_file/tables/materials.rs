@@ -121,6 +121,12 @@ const DISTRIBUTION: Key = Key::default(
     "\"ggx\"",
     "How the slopes of the facets are distributed",
 );
+const SHADOWING: Key = Key::default(
+    "shadowing",
+    SHADOWINGS,
+    "\"height-correlated\"",
+    "Whether facets that hide from one direction tend to hide from the other; separable compares with other programs",
+);
 const LATER_LIGHT: Key = Key::default(
     "multiple_scattering",
     Value::Flag,
@@ -128,6 +134,7 @@ const LATER_LIGHT: Key = Key::default(
     "Whether the light that facets pass to one another counts; without it rough surfaces lose light",
 );
 
+const SHADOWINGS: Value = Value::Choice(&["height-correlated", "separable"]);
 const SLOPES: Value = Value::Choice(&["ggx", "beckmann"]);
 
 const METALS: Value = Value::Choice(&["silver", "aluminium", "gold", "chromium", "copper", "iron"]);
@@ -230,6 +237,7 @@ pub const MATERIALS: Family = Family {
                 ALPHA_X,
                 ALPHA_Y,
                 DISTRIBUTION,
+                SHADOWING,
                 LATER_LIGHT,
                 OPACITY_KEY,
             ],
@@ -259,6 +267,7 @@ pub const MATERIALS: Family = Family {
                 ALPHA_X,
                 ALPHA_Y,
                 DISTRIBUTION,
+                SHADOWING,
                 LATER_LIGHT,
                 OPACITY_KEY,
             ],
@@ -304,6 +313,7 @@ pub const MATERIALS: Family = Family {
                 ALPHA_X,
                 ALPHA_Y,
                 DISTRIBUTION,
+                SHADOWING,
                 LATER_LIGHT,
                 OPACITY_KEY,
             ],

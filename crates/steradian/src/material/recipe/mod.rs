@@ -14,7 +14,7 @@ mod turn;
 pub use principled::PrincipledRecipe;
 pub use turn::{Role, Turn, Turned};
 
-use crate::brdf::{Measured, Slopes};
+use crate::brdf::{Measured, Shadowing, Slopes};
 
 /// A model and its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,6 +149,8 @@ pub struct Roughness {
     pub slopes: Slopes,
     /// Widths along x and y.
     pub alpha: [f64; 2],
+    /// Whether facets that hide from one direction tend to hide from the other.
+    pub shadowing: Shadowing,
     /// Whether the light that facets pass to one another counts.
     pub multiple_scattering: bool,
 }

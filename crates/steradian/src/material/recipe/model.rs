@@ -10,7 +10,8 @@ use crate::quantity::Spectrum;
 
 impl Roughness {
     fn facets(&self) -> Result<Facets, ModelError> {
-        Facets::anisotropic(self.slopes, self.alpha)
+        let facets = Facets::anisotropic(self.slopes, self.alpha)?;
+        Ok(facets.with_shadowing(self.shadowing))
     }
 }
 
