@@ -10,6 +10,7 @@ mod lamps;
 mod mirrors;
 mod panes;
 mod reflection;
+mod relief;
 mod reproducible;
 mod scattering;
 mod spectral;

@@ -4,6 +4,7 @@ mod bitmap;
 mod media;
 mod prepared;
 mod recipe;
+mod relief;
 mod scalar;
 mod texture;
 
@@ -11,6 +12,7 @@ pub use bitmap::{Bitmap, BitmapError, Interpolation, Texels, Wrap, linear_from_s
 pub use media::Media;
 pub use prepared::PreparedRecipe;
 pub use recipe::{PrincipledRecipe, RadianceKind, Recipe, Role, Roughness, Turn, Turned};
+pub use relief::{Relief, ReliefKind};
 pub use scalar::{Picture, Scalar};
 pub use texture::{ColorLanes, Hue, Pattern, Site, Texture, Tint};
 
@@ -39,6 +41,8 @@ pub struct Material {
     pub opacity: Option<Opacity>,
     /// What absorbs on the sides of the surface, in 1/m.
     pub media: Media<Hue>,
+    /// What turns the normal that the model reckons with.
+    pub relief: Option<Relief>,
 }
 
 /// How a material reflects.
@@ -92,6 +96,7 @@ impl Material {
             inside: None,
             outside: None,
         },
+        relief: None,
     };
 
     /// The model at a point for a path of these wavelengths; `None` where the surface is black.
@@ -146,7 +151,9 @@ impl Material {
             _ => vec![],
         };
         let laid = |texture: &Texture| texture.pattern != Pattern::VertexColor;
-        self.textures().any(laid) || pictures.iter().any(|number| number.picture.is_some())
+        self.relief.is_some()
+            || self.textures().any(laid)
+            || pictures.iter().any(|number| number.picture.is_some())
     }
 
     /// Whether single directions are all that it couples, which next-event estimation cannot find.

@@ -63,6 +63,8 @@ pub struct Site {
     pub coordinates: [f32; 2],
     /// Linear Rec.709 and alpha of the vertices.
     pub color: [f32; 4],
+    /// The normal of the vertices on the side of the front, not of unit length; zero if they have none.
+    pub normal: [f32; 3],
 }
 
 impl Site {
@@ -70,6 +72,7 @@ impl Site {
     pub const NOWHERE: Self = Self {
         coordinates: [0.0; 2],
         color: [1.0; 4],
+        normal: [0.0; 3],
     };
 }
 

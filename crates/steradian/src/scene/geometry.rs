@@ -248,7 +248,10 @@ fn mesh(data: &MeshData, transform: &Transform) -> Result<Shaped, Fault> {
             format!("triangle {index} of the mesh names a vertex beyond its {count} vertices");
         return Err(("triangles", message));
     }
-    let attributes = attributes(data)?;
+    let attributes = Attributes {
+        normals: normals(data, transform)?,
+        ..attributes(data)?
+    };
     let form = transformed(&data.vertices, &data.triangles, transform)?;
     Ok(match form {
         Form::Mesh(mesh) => Form::Mesh(mesh.with_attributes(attributes)),
@@ -288,7 +291,30 @@ fn attributes(data: &MeshData) -> Result<Attributes, Fault> {
     Ok(Attributes {
         coordinates: coordinates.clone(),
         colors: colors.clone(),
+        normals: vec![],
     })
+}
+
+/// Normals of the vertices as the transform turns them.
+fn normals(data: &MeshData, transform: &Transform) -> Result<Vec<[f32; 3]>, Fault> {
+    let (count, found) = (data.vertices.len(), data.normals.len());
+    if found != 0 && found != count {
+        let message = format!("a mesh of {count} vertices has {found} normals");
+        return Err(("vertices", message));
+    }
+    let turned = |(vertex, normal): (usize, &[f32; 3])| {
+        let normal = Direction::new(Vector::from(normal.map(f64::from)));
+        let turned = normal.and_then(|normal| transform.normal(normal));
+        turned
+            .map(|normal| normal.to_array().map(|x| x as f32))
+            .map_err(|error| {
+                (
+                    "vertices",
+                    format!("the normal of vertex {vertex}: {error}"),
+                )
+            })
+    };
+    data.normals.iter().enumerate().map(turned).collect()
 }
 
 fn transformed(

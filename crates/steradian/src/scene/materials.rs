@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::curves::Curves;
 use super::description::{self, LaneValues, MaterialDescription, MaterialModel, Varying};
-use super::{Fault, Part, Problem, mixtures, recipes};
+use super::{Fault, Part, Problem, mixtures, recipes, reliefs};
 use crate::material::{
     Bitmap, Hue, Material, MaterialId, Model, Opacity, Pattern, Texels, Texture, Tint,
 };
@@ -107,6 +107,10 @@ pub(super) fn one_sided(
             let message = "a material of two sides takes the opacity of each: state it there";
             return Err(("opacity", message.into()));
         }
+        MaterialModel::TwoSided { .. } if description.relief.is_some() => {
+            let message = "a material of two sides takes the relief of each: state it there";
+            return Err(("relief", message.into()));
+        }
         MaterialModel::TwoSided { .. } => return Ok(None),
     };
     let opacity = description.opacity.as_ref();
@@ -121,6 +125,11 @@ pub(super) fn one_sided(
         model,
         opacity,
         media,
+        relief: description
+            .relief
+            .as_ref()
+            .map(reliefs::prepare)
+            .transpose()?,
     }))
 }
 

@@ -34,6 +34,10 @@ fn part(name: &str, all: &[MaterialDescription], lanes: &Lanes) -> Result<Stated
         let message = format!("`{name}` has an opacity or an absorption: state it at the mixture");
         return Err(("of", message));
     }
+    if material.relief.is_some() {
+        let message = format!("`{name}` has a relief: state it at the mixture");
+        return Err(("of", message));
+    }
     match &material.model {
         MaterialModel::Recipe(recipe) => Ok(recipe.clone()),
         MaterialModel::Metal { metal, roughness } => recipes::metal(*metal, *roughness, lanes),

@@ -15,6 +15,7 @@ mod mixtures;
 mod problem;
 mod receivers;
 mod recipes;
+mod reliefs;
 mod remarks;
 mod sensors;
 mod spectral_readouts;

@@ -202,6 +202,7 @@ mod tests {
             model: Model::Recipe(Arc::new(recipe)),
             opacity: None,
             media: Media::default(),
+            relief: None,
         })
     }
 

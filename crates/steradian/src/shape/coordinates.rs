@@ -72,6 +72,21 @@ impl Form {
     }
 }
 
+impl Form {
+    /// The normals of a mesh's vertices between them, not of unit length; zero where the form has none.
+    pub fn vertex_normal(&self, face: usize, weights: [f32; 2]) -> [f32; 3] {
+        match self {
+            Self::Mesh(mesh) => interpolated(
+                &mesh.attributes.normals,
+                mesh.triangles[face],
+                weights,
+                [0.0; 3],
+            ),
+            _ => [0.0; 3],
+        }
+    }
+}
+
 /// The values of three vertices, weighted; `none` without values.
 fn interpolated<const N: usize>(
     values: &[[f32; N]],
@@ -154,9 +169,11 @@ mod tests {
         let attributes = Attributes {
             coordinates: vec![[0.0, 1.0], [1.0, 1.0], [0.0, 3.0]],
             colors: vec![[0.0; 4], [1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]],
+            normals: vec![[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         };
         let form = Form::Mesh(plain.with_attributes(attributes));
         close(form.coordinates(0, [0.25, 0.5], Point::ORIGIN), [0.25, 2.0]);
         assert_eq!(form.color(0, [0.25, 0.5]), [0.25, 0.5, 0.0, 0.75]);
+        assert_eq!(form.vertex_normal(0, [0.25, 0.5]), [0.25, 0.5, 0.25]);
     }
 }

@@ -24,6 +24,8 @@ pub struct Attributes {
     pub coordinates: Vec<[f32; 2]>,
     /// Linear Rec.709 and alpha; empty if there are none.
     pub colors: Vec<[f32; 4]>,
+    /// Normals of the surface that the triangles stand for; empty if there are none.
+    pub normals: Vec<[f32; 3]>,
 }
 
 impl TriangleMesh {

@@ -13,6 +13,7 @@ mod coordinates;
 mod disc;
 mod enclosure;
 mod form;
+mod gradients;
 pub mod health;
 mod mesh;
 mod parallelogram;

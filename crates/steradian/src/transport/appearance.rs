@@ -75,8 +75,7 @@ impl Tables<'_> {
 
     /// Local axes at a point with this normal: the first is that of the shape, the first edge of a rectangle and the
     /// direction of the first texture coordinate of a mesh, where there is one.
-    pub fn frame(&self, primitive: u32, normal: [f32; 3]) -> Option<Frame> {
-        let normal = Direction::new(Vector::from(normal.map(f64::from))).ok()?;
+    pub fn frame(&self, primitive: u32, normal: Direction) -> Frame {
         let (shape, face) = self.scene.surfaces().face_of(primitive);
         let tangent = match &self.scene.surfaces().shape(shape).form {
             Form::Parallelogram(form) => Some(form.edges[0]),
@@ -84,7 +83,7 @@ impl Tables<'_> {
             _ => None,
         };
         let frame = tangent.and_then(|tangent| Frame::from_normal_and_tangent(normal, tangent));
-        Some(frame.unwrap_or_else(|| Frame::from_normal(normal)))
+        frame.unwrap_or_else(|| Frame::from_normal(normal))
     }
 
     /// What a surface knows of a point that a ray met.
@@ -127,6 +126,7 @@ fn site_of(form: &Form, face: usize, weights: [f32; 2], point: Point) -> Site {
     Site {
         coordinates: form.coordinates(face, weights, point),
         color: form.color(face, weights),
+        normal: form.vertex_normal(face, weights),
     }
 }
 

@@ -23,6 +23,7 @@ pub mod reflection;
 mod run;
 mod scatter;
 mod scattering;
+mod shading_normal;
 mod shaft;
 mod tables;
 mod towards;

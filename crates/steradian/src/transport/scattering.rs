@@ -125,9 +125,9 @@ impl<'a> Surface<'a> {
         let side = &tables.sides[encounter.side as usize];
         let brdf = tables.brdf(side, &encounter.site, wavelengths)?;
         let inverted = side.transmits && !encounter.is_at_front();
-        let normal = encounter.place.normal;
-        let normal = if inverted { normal.map(|x| -x) } else { normal };
-        let frame = tables.frame(encounter.primitive, normal)?;
+        let normal = tables.shading_normal(encounter)?;
+        let normal = if inverted { -normal } else { normal };
+        let frame = tables.frame(encounter.primitive, normal);
         let wo = local(&frame, encounter.viewer)?;
         Some(Self {
             encounter,
@@ -247,7 +247,7 @@ impl<'a> Surface<'a> {
 }
 
 impl Encounter {
-    fn is_at_front(&self) -> bool {
+    pub fn is_at_front(&self) -> bool {
         self.side.is_multiple_of(2)
     }
 }

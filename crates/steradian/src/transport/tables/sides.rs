@@ -78,6 +78,7 @@ fn model(material: &Material) -> Model {
     match material.model {
         _ if material.reflectance().is_some_and(is_black) => Model::Black,
         material::Model::Black => Model::Black,
+        _ if material.relief.is_some() && !material.is_pane() => Model::Any,
         material::Model::Lambertian { .. } => Model::Lambertian,
         material::Model::Mirror { .. } => Model::Mirror,
         material::Model::Recipe(_) if material.is_pane() => Model::Pane,
