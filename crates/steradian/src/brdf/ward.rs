@@ -41,14 +41,17 @@
 //! # Ok::<(), steradian::brdf::ModelError>(())
 //! ```
 
+mod share;
+
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 use super::error::{at_most_all, in_range, share};
-use super::microfacet::{Facets, Slopes, half_way, seen_facets};
+use super::microfacet::{Facets, Slopes, half_way};
 use super::sampling::{choose_part, cosine_direction, flipped};
 use super::{ModelError, Scatter};
 use crate::geometry::{Direction, Vector};
 use crate::quantity::Spectrum;
+use share::lobe_share;
 
 /// Diffuse and glossy light, reflected and transmitted.
 #[derive(Copy, Clone, Debug, PartialEq)]
@@ -260,19 +263,9 @@ impl Side {
     }
 
     fn albedo(&self, wo: Direction) -> Spectrum {
-        let lobe = self.facets.map_or(1.0, |facets| lobe_albedo(facets, wo));
+        let lobe = self.facets.map_or(1.0, |facets| lobe_share(facets, wo));
         self.diffuse + self.glossy * lobe
     }
-}
-
-/// The mean of 2 cosθ_i/(cosθ_e + cosθ_i) over facets of density D m_z.
-fn lobe_albedo(facets: Facets, wo: Direction) -> f64 {
-    let [albedo] = seen_facets(facets, wo, |m| {
-        let cos = m.mirror(wo).z().max(0.0);
-        let weight = 2.0 * cos / (wo.z() + cos);
-        [weight * m.z() * wo.z() / wo.dot(m).max(f64::MIN_POSITIVE)]
-    });
-    albedo
 }
 
 /// A mirrored direction above, from a facet of density D m_z.

@@ -19,7 +19,6 @@ pub use rough_plastic::RoughPlastic;
 
 use crate::brdf::sampling::above;
 use crate::geometry::Direction;
-use quadrature::{Fan, Ray};
 
 /// The normal that mirrors one direction into the other, both above the surface.
 pub(super) fn half_way(wo: Direction, wi: Direction) -> Option<Direction> {
@@ -27,15 +26,6 @@ pub(super) fn half_way(wo: Direction, wi: Direction) -> Option<Direction> {
         return None;
     }
     Direction::new(wo.to_vector() + wi.to_vector()).ok()
-}
-
-/// ∫ f(m) D(m) (d_e·m)/cosθ_e dω_m over the facets that mirror `wo` to above the surface.
-pub(super) fn seen_facets<const N: usize>(
-    facets: Facets,
-    wo: Direction,
-    f: impl Fn(Direction) -> [f64; N],
-) -> [f64; N] {
-    Fan::new(facets, wo, 1).integrate(Ray::mirroring, f)
 }
 
 #[cfg(test)]
