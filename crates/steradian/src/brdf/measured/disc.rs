@@ -7,8 +7,12 @@ use super::basis::DiscPoint;
 
 /// The point of the square, in 0 … 1.
 pub(super) fn to_square([x, y]: DiscPoint) -> [f64; 2] {
-    let radius = (x * x + y * y).sqrt();
-    let (sector, within) = sector(libm::atan2(y, x));
+    polar_to_square((x * x + y * y).sqrt(), libm::atan2(y, x))
+}
+
+/// The point of the square for a point of the disc by its radius and azimuth, −2π … 2π.
+pub(super) fn polar_to_square(radius: f64, azimuth: f64) -> [f64; 2] {
+    let (sector, within) = sector(azimuth);
     let [a, b] = on_ring(sector, radius, within / FRAC_PI_4 * radius);
     [0.5 * (a + 1.0), 0.5 * (b + 1.0)]
 }
@@ -51,8 +55,11 @@ pub(super) fn azimuths_within(
 ) -> impl Iterator<Item = [f64; 2]> {
     let one = move |sector: usize| {
         let across = sector % 2;
-        let side = if sector < 2 { radius } else { -radius };
-        if !(low[across] <= side && side < high[across]) {
+        let [near, far] = match sector < 2 {
+            true => [low[across], high[across]],
+            false => [-high[across], -low[across]],
+        };
+        if !(near <= radius && radius < far) {
             return None;
         }
         // As in `on_ring`: along the first and the last side the other coordinate grows.

@@ -6,146 +6,22 @@
 //! | 3 | (1 − sinθ_i)/2, of which only the first half is used, and the square of scattering, turned to incidence along x |
 //!
 //! Children and values follow each other with the last axis fastest in grids and the first axis as the lowest bit in branches, as
-//! Radiance writes them. Both slices through the tree, at fixed scattering or at fixed incidence, are walked leaf by leaf: totals
-//! are exact sums, and sampling follows the data without remainder. A call takes the time of the leaves that the slice meets.
+//! Radiance writes them. Totals are exact sums over the leaves that a slice through the tree meets, at fixed scattering or at fixed
+//! incidence, and sampling follows the data without remainder. At fixed scattering, where light is drawn, the sums are made once,
+//! branch by branch: a call takes the time of a descent. At fixed incidence it takes that of the leaves that the slice meets.
 //! Source: G. Ward et al., *A practical framework for sharing and rendering real-world bidirectional scattering distribution
 //! functions*, LBNL-5954E (2012).
 
-use super::MeasuredError;
+mod builder;
+mod slice;
+mod sums;
+
 use super::basis::DiscPoint;
 use super::disc;
-
-/// Halvings of the unit box at most.
-const DEPTH: usize = 16;
-
-/// Which directions the numbers of a tree belong to, as it is read.
-#[derive(Copy, Clone, Debug, PartialEq, Eq)]
-pub enum Rank {
-    /// Isotropic.
-    Three,
-    /// Anisotropic.
-    Four,
-}
-
-impl Rank {
-    /// The number of axes.
-    pub const fn axes(self) -> usize {
-        match self {
-            Self::Three => 3,
-            Self::Four => 4,
-        }
-    }
-}
-
-#[derive(Copy, Clone, Debug, PartialEq)]
-enum Node {
-    /// The number of its first child; the others follow.
-    Branch(u32),
-    Leaf(f32),
-}
-
-/// Builds a tree from its branches and grids in the order of a file.
-#[derive(Clone, Debug)]
-pub struct TreeBuilder {
-    rank: Rank,
-    nodes: Vec<Node>,
-    /// Children that are still to come, the next one last; with its depth.
-    open: Vec<(u32, usize)>,
-}
-
-impl TreeBuilder {
-    /// An empty tree.
-    pub fn new(rank: Rank) -> Self {
-        Self {
-            rank,
-            nodes: vec![Node::Leaf(0.0)],
-            open: vec![(0, 0)],
-        }
-    }
-
-    /// Whether nothing is missing.
-    pub fn is_complete(&self) -> bool {
-        self.open.is_empty()
-    }
-
-    /// The next part of the box is halved along every axis; its parts follow.
-    ///
-    /// # Errors
-    /// If the tree is complete or too deep.
-    pub fn branch(&mut self) -> Result<(), MeasuredError> {
-        let (node, depth) = self.open.pop().ok_or(MeasuredError::TreeComplete)?;
-        let first = self.split(node, depth)?;
-        let children = first..first + (1 << self.rank.axes());
-        self.open
-            .extend(children.rev().map(|child| (child, depth + 1)));
-        Ok(())
-    }
-
-    /// The next part of the box holds a grid of these values in 1/sr, one or a power of 2ʳᵃⁿᵏ of them.
-    ///
-    /// # Errors
-    /// If the tree is complete or too deep, their number is wrong, or one is negative or not finite.
-    pub fn grid(&mut self, values: &[f32]) -> Result<(), MeasuredError> {
-        let (node, depth) = self.open.pop().ok_or(MeasuredError::TreeComplete)?;
-        let halvings = values.len().max(1).ilog2() as usize / self.rank.axes();
-        if values.len() != 1 << (halvings * self.rank.axes()) {
-            let found = values.len();
-            return Err(MeasuredError::Grid { found });
-        }
-        super::check_values(values)?;
-        self.fill(node, depth, halvings, [0; 4], values)
-    }
-
-    fn fill(
-        &mut self,
-        node: u32,
-        depth: usize,
-        halvings: usize,
-        corner: [usize; 4],
-        values: &[f32],
-    ) -> Result<(), MeasuredError> {
-        let axes = self.rank.axes();
-        let Some(finer) = halvings.checked_sub(1) else {
-            let side = values.len().max(1).ilog2() as usize / axes;
-            let index = corner[..axes].iter().fold(0, |sum, at| (sum << side) + at);
-            self.nodes[node as usize] = Node::Leaf(values[index]);
-            return Ok(());
-        };
-        let first = self.split(node, depth)?;
-        for child in 0..1_u32 << axes {
-            let part: [usize; 4] =
-                std::array::from_fn(|axis| corner[axis] + ((child as usize >> axis & 1) << finer));
-            self.fill(first + child, depth + 1, finer, part, values)?;
-        }
-        Ok(())
-    }
-
-    fn split(&mut self, node: u32, depth: usize) -> Result<u32, MeasuredError> {
-        let first = self.nodes.len();
-        let end = first + (1 << self.rank.axes());
-        if depth >= DEPTH || end > u32::MAX as usize {
-            return Err(MeasuredError::TreeDepth { most: DEPTH });
-        }
-        self.nodes.resize(end, Node::Leaf(0.0));
-        self.nodes[node as usize] = Node::Branch(first as u32);
-        Ok(first as u32)
-    }
-
-    /// The tree.
-    ///
-    /// # Errors
-    /// If parts are missing.
-    pub fn build(self) -> Result<TensorTree, MeasuredError> {
-        match self.is_complete() {
-            true => Ok(TensorTree {
-                rank: self.rank,
-                nodes: self.nodes,
-                reversed: false,
-            }),
-            false => Err(MeasuredError::TreeIncomplete),
-        }
-    }
-}
+use builder::Node;
+pub use builder::{Rank, TreeBuilder};
+use slice::{Fixed, Slice, Voxel};
+use sums::Sums;
 
 /// Values in 1/sr by the leaves of a tree.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,63 +29,35 @@ pub struct TensorTree {
     rank: Rank,
     nodes: Vec<Node>,
     reversed: bool,
+    /// At fixed scattering.
+    sums: Sums,
 }
 
-/// A box of the tree: its lowest corner and its width.
+/// A node, its box, and how often the unit box was halved.
 #[derive(Copy, Clone, Debug)]
-struct Voxel {
-    corner: [f64; 4],
-    width: f64,
-}
-
-/// Part of the disc on which a slice of the tree is constant.
-#[derive(Copy, Clone, Debug)]
-enum Region {
-    /// Part of the square.
-    Square { corner: [f64; 2], width: f64 },
-    /// Squares of two radii, and two azimuths.
-    Sector {
-        squares: [f64; 2],
-        azimuths: [f64; 2],
-    },
-}
-
-impl Region {
-    fn area(&self) -> f64 {
-        match self {
-            Self::Square { width, .. } => disc::AREA * width * width,
-            Self::Sector { squares, azimuths } => {
-                0.5 * (azimuths[1] - azimuths[0]) * (squares[1] - squares[0])
-            }
-        }
-    }
-
-    fn point(&self, u: [f64; 2]) -> DiscPoint {
-        match self {
-            Self::Square { corner, width } => {
-                disc::to_disc([0, 1].map(|k| corner[k] + width * u[k]))
-            }
-            Self::Sector { squares, azimuths } => {
-                let radius = (squares[0] + u[0] * (squares[1] - squares[0])).sqrt();
-                let azimuth = azimuths[0] + u[1] * (azimuths[1] - azimuths[0]);
-                [radius * libm::cos(azimuth), radius * libm::sin(azimuth)]
-            }
-        }
-    }
-}
-
-/// What is held fixed in a slice.
-#[derive(Copy, Clone, Debug)]
-enum Slice {
-    /// Two coordinates of rank 4, from this axis on; the two others are free.
-    Square { axis: usize, at: [f64; 2] },
-    /// Incidence of rank 3.
-    Incidence { at: f64 },
-    /// The radius of scattering of rank 3.
-    Scattering { radius: f64 },
+struct Place {
+    node: Node,
+    voxel: Voxel,
+    depth: usize,
 }
 
 impl TensorTree {
+    fn new(rank: Rank, nodes: Vec<Node>, reversed: bool) -> Self {
+        let fixed = match (rank, reversed) {
+            (Rank::Four, true) => Fixed::Square { axis: 0 },
+            (Rank::Four, false) => Fixed::Square { axis: 2 },
+            (Rank::Three, true) => Fixed::Incidence,
+            (Rank::Three, false) => Fixed::Radius,
+        };
+        let sums = Sums::new(rank, &nodes, fixed);
+        Self {
+            rank,
+            nodes,
+            reversed,
+            sums,
+        }
+    }
+
     /// Whether it is isotropic.
     pub const fn rank(&self) -> Rank {
         self.rank
@@ -218,10 +66,7 @@ impl TensorTree {
     /// The same surface for light that goes the other way, if it is reciprocal.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        Self {
-            reversed: !self.reversed,
-            ..self.clone()
-        }
+        Self::new(self.rank, self.nodes.clone(), !self.reversed)
     }
 
     /// The number of leaves.
@@ -247,8 +92,8 @@ impl TensorTree {
                 [a, b, c, d]
             }
             Rank::Three => {
-                let azimuth = libm::atan2(incident[1], incident[0]);
-                let [b, c] = disc::to_square(turned(scattered, -azimuth));
+                let [from, to] = [incident, scattered].map(|[x, y]| libm::atan2(y, x));
+                let [b, c] = disc::polar_to_square(radius(scattered), to - from);
                 [incidence(incident), b, c, 0.0]
             }
         };
@@ -275,7 +120,7 @@ impl TensorTree {
 
     /// ∫ ρ cosθ dω over all incidence.
     pub(super) fn total(&self, scattered: DiscPoint) -> f64 {
-        self.integral(self.slice_at_scattering(scattered))
+        self.sum(self.root(), &self.slice_at_scattering(scattered))
     }
 
     /// ∫ ρ cosθ dω over all scattering.
@@ -288,7 +133,10 @@ impl TensorTree {
 
     fn integral(&self, slice: Slice) -> f64 {
         let mut sum = 0.0;
-        self.walk(slice, &mut |region, value| sum += value * region.area());
+        let meets = |voxel: Voxel| slice.meets(voxel);
+        self.visit(&meets, &mut |voxel, value| {
+            slice.regions(voxel, |region| sum += value * region.area());
+        });
         sum
     }
 
@@ -300,16 +148,41 @@ impl TensorTree {
         u: [f64; 2],
     ) -> Option<DiscPoint> {
         let slice = self.slice_at_scattering(scattered);
-        let wanted = u[0] * total;
-        let (mut sum, mut found) = (0.0, None);
-        self.walk(slice, &mut |region, value| {
-            let next = sum + value * region.area();
-            if found.is_none() && wanted < next {
-                found = Some(region.point([(wanted - sum) / (next - sum), u[1]]));
-            }
-            sum = next;
-        });
-        found.map(|point| self.oriented(scattered, point))
+        let (mut place, mut rest) = (self.root(), u[0] * total);
+        while let Node::Branch(first) = place.node {
+            let parts = self.children(place, first);
+            let met = parts.filter(|part| slice.meets(part.voxel));
+            (place, rest, _) = choose(met.map(|part| (part, self.sum(part, &slice))), rest)?;
+        }
+        let mut regions = Vec::new();
+        slice.regions(place.voxel, |region| regions.push(region));
+        let areas = regions.into_iter().map(|region| (region, region.area()));
+        let Node::Leaf(value) = place.node else {
+            return None;
+        };
+        let (region, rest, area) = choose(areas, rest / f64::from(value))?;
+        let point = region.point([(rest / area).clamp(0.0, 1.0), u[1]]);
+        Some(self.oriented(scattered, point))
+    }
+
+    fn root(&self) -> Place {
+        Place {
+            node: self.nodes[0],
+            voxel: Voxel::WHOLE,
+            depth: 0,
+        }
+    }
+
+    fn children(&self, of: Place, first: u32) -> impl Iterator<Item = Place> + '_ {
+        (0..1_u32 << self.rank.axes()).map(move |child| Place {
+            node: self.nodes[(first + child) as usize],
+            voxel: of.voxel.part(child),
+            depth: of.depth + 1,
+        })
+    }
+
+    fn sum(&self, place: Place, slice: &Slice) -> f64 {
+        self.sums.at(place.node, place.voxel, place.depth, slice)
     }
 
     /// The directions as the tree was read.
@@ -330,8 +203,9 @@ impl TensorTree {
     fn slice_at_read_incidence(&self, point: DiscPoint) -> Slice {
         match self.rank {
             Rank::Four => Slice::at_square(0, point),
-            Rank::Three => Slice::Incidence {
-                at: incidence(point),
+            Rank::Three => Slice {
+                fixed: Fixed::Incidence,
+                at: [incidence(point), 0.0],
             },
         }
     }
@@ -339,8 +213,9 @@ impl TensorTree {
     fn slice_at_read_scattering(&self, point: DiscPoint) -> Slice {
         match self.rank {
             Rank::Four => Slice::at_square(2, point),
-            Rank::Three => Slice::Scattering {
-                radius: length(point).clamp(1e-12, 1.0 - 1e-12),
+            Rank::Three => Slice {
+                fixed: Fixed::Radius,
+                at: [radius(point), 0.0],
             },
         }
     }
@@ -362,20 +237,8 @@ impl TensorTree {
         }
     }
 
-    /// The parts of the disc on which a slice is constant, with their values in 1/sr.
-    fn walk(&self, slice: Slice, visit: &mut impl FnMut(Region, f64)) {
-        let meets = |voxel: Voxel| slice.meets(voxel);
-        self.visit(&meets, &mut |voxel, value| {
-            slice.regions(voxel, |region| visit(region, value));
-        });
-    }
-
     fn visit(&self, meets: &impl Fn(Voxel) -> bool, visit: &mut impl FnMut(Voxel, f64)) {
-        let whole = Voxel {
-            corner: [0.0; 4],
-            width: 1.0,
-        };
-        self.visit_part(0, whole, meets, visit);
+        self.visit_part(0, Voxel::WHOLE, meets, visit);
     }
 
     fn visit_part(
@@ -392,70 +255,36 @@ impl TensorTree {
             Node::Leaf(value) => return visit(voxel, f64::from(value)),
             Node::Branch(first) => first,
         };
-        let width = 0.5 * voxel.width;
         for child in 0..1_u32 << self.rank.axes() {
-            let shift = |axis: usize| f64::from(child >> axis & 1) * width;
-            let corner = std::array::from_fn(|axis| voxel.corner[axis] + shift(axis));
-            self.visit_part(first + child, Voxel { corner, width }, meets, visit);
+            self.visit_part(first + child, voxel.part(child), meets, visit);
         }
     }
 }
 
-impl Slice {
-    fn at_square(axis: usize, point: DiscPoint) -> Self {
-        let at = disc::to_square(point).map(below_one);
-        Self::Square { axis, at }
-    }
-
-    fn meets(self, voxel: Voxel) -> bool {
-        let holds = |axis: usize, at: f64| {
-            voxel.corner[axis] <= at && at < voxel.corner[axis] + voxel.width
-        };
-        match self {
-            Self::Square { axis, at } => holds(axis, at[0]) && holds(axis + 1, at[1]),
-            Self::Incidence { at } => holds(0, at),
-            Self::Scattering { radius } => {
-                let [low, high] = voxel.side(1);
-                let nearest = [0, 1].map(|k| low[k].max(-high[k]).max(0.0));
-                let farthest = [0, 1].map(|k| high[k].max(-low[k]));
-                let used = voxel.corner[0] < 0.5;
-                let inside = nearest[0].max(nearest[1]) <= radius;
-                used && inside && radius <= farthest[0].max(farthest[1])
-            }
+/// The one in which `wanted` lies when shares follow each other: itself, what is left of `wanted`, and its share.
+///
+/// The last that is not 0, if rounding led beyond.
+fn choose<T>(shares: impl Iterator<Item = (T, f64)>, wanted: f64) -> Option<(T, f64, f64)> {
+    let (mut rest, mut last) = (wanted, None);
+    for (one, share) in shares.filter(|(_, share)| *share > 0.0) {
+        let found = rest < share;
+        last = Some((one, rest.min(share), share));
+        if found {
+            break;
         }
+        rest -= share;
     }
-
-    fn regions(self, voxel: Voxel, mut visit: impl FnMut(Region)) {
-        let square = |axis: usize| Region::Square {
-            corner: [voxel.corner[axis], voxel.corner[axis + 1]],
-            width: voxel.width,
-        };
-        match self {
-            Self::Square { axis, .. } => visit(square(2 - axis)),
-            Self::Incidence { .. } => visit(square(1)),
-            Self::Scattering { radius } => {
-                let [low, high] = voxel.side(1);
-                let radii = [voxel.corner[0] + voxel.width, voxel.corner[0]]
-                    .map(|at| (1.0 - 2.0 * at).max(0.0));
-                let squares = radii.map(|r| r * r);
-                disc::azimuths_within(low, high, radius)
-                    .for_each(|azimuths| visit(Region::Sector { squares, azimuths }));
-            }
-        }
-    }
-}
-
-impl Voxel {
-    /// Two axes, stretched to −1 … 1: the lowest and the highest corner.
-    fn side(&self, axis: usize) -> [[f64; 2]; 2] {
-        let low = [0, 1].map(|k| 2.0 * self.corner[axis + k] - 1.0);
-        [low, low.map(|x| x + 2.0 * self.width)]
-    }
+    last
 }
 
 /// The coordinate of incidence of rank 3: half of the box is used, ends of cells belong to the lower cell.
 fn incidence(point: DiscPoint) -> f64 {
     (0.5 * (1.0 - length(point)) - 1e-12).max(0.0)
+}
+
+/// The radius of scattering of rank 3: not 0, and not where boxes end, so that all around the same ones are met.
+fn radius(point: DiscPoint) -> f64 {
+    (length(point) * (1.0 - 1e-12)).clamp(1e-12, 1.0 - 1e-12)
 }
 
 fn length([x, y]: DiscPoint) -> f64 {

@@ -1,4 +1,6 @@
+use super::builder::DEPTH;
 use super::*;
+use crate::brdf::measured::MeasuredError;
 use crate::sampling::testing::independent;
 use std::f64::consts::PI;
 
@@ -30,7 +32,7 @@ fn trees() -> [TensorTree; 4] {
     [three, four, a, b]
 }
 
-const POINTS: [DiscPoint; 4] = [[0.31, 0.42], [-0.7, 0.1], [0.05, -0.93], [-0.2, -0.2]];
+const POINTS: [DiscPoint; 4] = [[0.31, 0.42], [-0.7, 0.1], [0.05, -0.93], [-0.2, -0.21]];
 
 /// Mean of a function over the disc, times its area, from points that fill it evenly; off by the cells that leaves cut: 4e-3.
 fn quadrature(f: impl Fn(DiscPoint) -> f64) -> f64 {
@@ -57,6 +59,44 @@ fn totals_are_the_integrals_of_the_value() {
     }
 }
 
+/// Sums made once against those over the leaves that a slice meets; at radii ½ and ¾ boxes begin.
+#[test]
+fn sums_made_once_are_those_over_the_leaves() {
+    let mut single = TreeBuilder::new(Rank::Three);
+    single.grid(&[0.25]).unwrap();
+    let single = single.build().unwrap();
+    for tree in trees()
+        .into_iter()
+        .chain([single.clone(), single.reversed()])
+    {
+        let on_borders = [[0.5, 0.0], [0.0, -0.75], [0.0, 0.0], [-1.0, 0.0]];
+        let points = independent(9, 200)
+            .map(disc::to_disc)
+            .chain(on_borders)
+            .chain(POINTS);
+        for point in points {
+            let walked = tree.integral(tree.slice_at_scattering(point));
+            assert!(
+                (tree.total(point) / walked - 1.0).abs() < 1e-13,
+                "{point:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn samples_lie_where_the_value_is_not_zero() {
+    for tree in trees() {
+        for fixed in POINTS {
+            let total = tree.total(fixed);
+            for u in independent(6, 1024) {
+                let point = tree.sample(fixed, total, u).unwrap();
+                assert!(tree.value(fixed, point) > 0.0, "{fixed:?} {u:?}");
+            }
+        }
+    }
+}
+
 /// The mean of a smooth function under the samples, against the integral: six standard errors of 4096 samples.
 #[test]
 fn samples_follow_the_value() {
@@ -69,6 +109,23 @@ fn samples_follow_the_value() {
             let mean = drawn.map(test).sum::<f64>() / 4096.0;
             assert!((mean - expected).abs() < 0.06, "{mean} {expected}");
         }
+    }
+}
+
+/// At 30°, where boxes of rank 3 begin and end, the value meets those that the total is the sum of, at any azimuth.
+#[test]
+fn borders_belong_to_the_same_boxes_all_around() {
+    let mut builder = TreeBuilder::new(Rank::Three);
+    let values: Vec<_> = (0..64).map(|k| (k % 16) as f32).collect();
+    builder.grid(&values).unwrap();
+    let tree = builder.build().unwrap();
+    for azimuth in [0.0, 0.6, 2.0, -1.3] {
+        let fixed = [0.5 * libm::cos(azimuth), 0.5 * libm::sin(azimuth)];
+        let integral = quadrature(|point| tree.value(fixed, point));
+        assert!(
+            (tree.total(fixed) / integral - 1.0).abs() < 4e-3,
+            "{azimuth}"
+        );
     }
 }
 
