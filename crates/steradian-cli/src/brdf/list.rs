@@ -63,10 +63,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 }
 
 fn table(models: &[&ModelHelp]) -> String {
-    let mut columns = Columns::new(["model", "parameters", "what it is"]);
+    let mut columns = Columns::new(["model", "what it is", "parameters"]);
     for model in models {
         let keys: Vec<&str> = model.keys.iter().map(|key| key.name).collect();
-        columns.row([model.name, &keys.join(" "), model.doc]);
+        columns.row([model.name, model.doc, &keys.join(" ")]);
     }
     columns.to_string()
 }
