@@ -254,7 +254,7 @@ const LOSSLESS: &[(&str, &[&str], Option<&str>)] = &[
     ),
     (
         "principled",
-        &["base_color=1", "metallic=0", "transmission=1"],
+        &["base_color=1", "metallic=0"],
         Some("roughness"),
     ),
 ];

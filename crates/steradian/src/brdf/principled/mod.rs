@@ -17,7 +17,8 @@
 //! F is Schlick's, α the square of roughness; anisotropy a widens the facets along the tangent to α + (1 − α) a².
 //! glTF leaves open how layers share the light. Here every lobe keeps the light that facets pass to one another, what lies below gets at most
 //! what is left, and what a coat sends back down is lost: reciprocal, and albedo + transmittance ≤ 1 at every angle. (Mixed
-//! by F of the half-way angle, as glTF's sample formulas do, a white dielectric of roughness .5 sends back 1.115 times the light that comes at 85°.) A colour of s C_s above 1 is limited to 1 as a tint of ρ_clear. Roughness below .03 is .03
+//! by F of the half-way angle, as glTF's sample formulas do, a white dielectric of roughness .5 sends back 1.115 times the light that comes at 85°.) A colour of s C_s above 1 is limited to 1 as a tint of ρ_clear. White metal and white paint keep all light; a clear sheet loses up to 3 % where
+//! highlights are broad. Roughness below .03 is .03
 //! for reflection, and smooth (a sample is a single direction) for transmission. Absorption inside a solid belongs to the medium.
 //!
 //! Parts are drawn in proportion to their albedos, of highlights to the root of it. Albedos are quadratures over
