@@ -18,7 +18,7 @@ pub enum Check {
     Density,
     /// Directions have the density pdf.
     Sampling,
-    /// E[weight] is the albedo, and the transmittance.
+    /// E(weight) is the albedo, and the transmittance.
     MeanWeight,
     /// A model without loss keeps all light.
     Furnace,

@@ -12,7 +12,7 @@ pub const FURNACE_TOLERANCE: f64 = 2e-3;
 /// Angles to the normal, in degrees.
 pub const FURNACE_ANGLES: [f64; 6] = [0.0, 30.0, 45.0, 60.0, 75.0, 85.0];
 
-/// E[weight] over both sides at each angle.
+/// E(weight) over both sides at each angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FurnaceRow {
     /// What is varied.

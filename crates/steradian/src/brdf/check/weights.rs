@@ -18,7 +18,7 @@ use crate::sampling::hash::combine;
 
 const REPLICATES: u32 = 16;
 
-/// E[weight] of one view, as shares of power.
+/// E(weight) of one view, as shares of power.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanWeight {
     /// Of light that stays on the side of d_e, lane by lane.
@@ -33,7 +33,7 @@ pub struct MeanWeight {
     pub largest: f64,
 }
 
-/// E[weight] of one view.
+/// E(weight) of one view.
 pub fn mean_weights(model: &Brdf, wo: Direction, effort: &Effort) -> MeanWeight {
     let mut largest = 0.0_f64;
     let means: Vec<[f64; 8]> = (0..REPLICATES)
@@ -90,7 +90,7 @@ fn replicate_mean(
     sum.map(|sum| sum / f64::from(samples))
 }
 
-/// E[weight] of every view is its albedo on this side, and its transmittance on the other.
+/// E(weight) of every view is its albedo on this side, and its transmittance on the other.
 pub fn mean_weight(model: &Brdf, effort: &Effort) -> Finding {
     let views = views(model);
     let alarms = share_of_alarms(effort.false_alarms, views.len() * 8);

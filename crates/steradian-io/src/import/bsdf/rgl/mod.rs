@@ -10,7 +10,7 @@
 //! | `jacobian`, `description` | 1; bytes | whether `ndf`/(4 `sigma`) is a factor; a name |
 //!
 //! Of files with spectra, colours are those under D65; negative numbers of `rgb` and `spectra` become 0 with a warning. What the numbers mean
-//! is told in [`Rgl`](steradian::brdf::measured::Rgl). Source: J. Dupuy, W. Jakob, *An adaptive parameterization for efficient material acquisition
+//! is told in [`Rgl`]. Source: J. Dupuy, W. Jakob, *An adaptive parameterization for efficient material acquisition
 //! and rendering* (SIGGRAPH Asia 2018).
 
 mod tensor;
