@@ -206,7 +206,10 @@ fn a_luminaire_is_told_with_its_flux_and_its_beams() {
     assert!(
         (number(&object["flux"]["value"]) / (180.0 * std::f64::consts::PI) - 1.0).abs() < 1e-12
     );
-    assert_eq!(object["rated_flux"], 2000.0);
+    assert_eq!(object["rated_flux"]["value"], 2000.0);
+    assert_eq!(object["rated_flux"]["unit"], "lm");
+    assert_eq!(object["power"]["unit"], "W");
+    assert_eq!(object["angles"]["C0-C180"]["beam"]["unit"], "deg");
     assert_eq!(object["greatest_intensity"]["value"], 45.0);
     let code: Vec<f64> = object["flux_code"]
         .as_array()

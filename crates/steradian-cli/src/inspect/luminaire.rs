@@ -197,7 +197,7 @@ fn as_json(path: &Path, lamp: &Photometry) -> Value {
     let degrees = |azimuth: f64| -> Value {
         let angles = spreads(lamp, azimuth).into_iter();
         angles
-            .map(|(name, angle)| (name.to_owned(), json!(angle.to_degrees())))
+            .map(|(name, angle)| (name.to_owned(), exact(angle.to_degrees(), "deg")))
             .collect()
     };
     let warnings = lamp.warnings.iter().map(|warning| &warning.message);
@@ -207,14 +207,19 @@ fn as_json(path: &Path, lamp: &Photometry) -> Value {
         "file": path.display().to_string(),
         "format": lamp.format,
         "header": keywords.collect::<Vec<_>>(),
-        "flux": { "value": lamp.far_field.flux(), "unit": flux_unit, "std_error": 0, "method": "closed-form" },
-        "rated_flux": lamp.lamp_flux,
-        "watts": lamp.watts,
-        "greatest_intensity": { "value": lamp.far_field.peak()[2], "unit": unit },
+        "flux": exact(lamp.far_field.flux(), flux_unit),
+        "rated_flux": lamp.lamp_flux.map(|rated| json!({ "value": rated, "unit": flux_unit })),
+        "power": { "value": lamp.watts, "unit": "W" },
+        "greatest_intensity": exact(lamp.far_field.peak()[2], unit),
         "angles": { "C0-C180": degrees(0.0), "C90-C270": degrees(FRAC_PI_2) },
         "flux_code": flux_code(lamp),
         "opening": opening(&lamp.opening),
         "symmetry": lamp.symmetry,
         "warnings": warnings.collect::<Vec<_>>(),
     })
+}
+
+/// A number that nothing was sampled for.
+fn exact(value: f64, unit: &str) -> Value {
+    json!({ "value": value, "unit": unit, "std_error": 0, "method": "closed-form" })
 }

@@ -71,6 +71,17 @@ pub(super) fn share(parameter: &'static str, found: Spectrum) -> Result<Spectrum
     Ok(found)
 }
 
+/// What reflected and transmitted light are multiplied by.
+pub(super) fn tints(
+    reflection: Spectrum,
+    transmission: Spectrum,
+) -> Result<[Spectrum; 2], ModelError> {
+    Ok([
+        share("tint of reflection", reflection)?,
+        share("tint of transmission", transmission)?,
+    ])
+}
+
 /// Refuses two shares of the same light that add up to more than 1, but for the rounding of single precision.
 pub(super) fn at_most_all(parts: &'static str, a: Spectrum, b: Spectrum) -> Result<(), ModelError> {
     let sum = f64::from((a + b).max_lane());

@@ -23,7 +23,7 @@
 //! # Ok::<(), steradian::brdf::ModelError>(())
 //! ```
 
-use super::error::{in_range, share};
+use super::error::{in_range, tints};
 use super::fresnel::{dielectric, refract};
 use super::{ModelError, Scatter};
 use crate::geometry::Direction;
@@ -57,10 +57,7 @@ impl SmoothDielectric {
         reflection: Spectrum,
         transmission: Spectrum,
     ) -> Result<Self, ModelError> {
-        let tints = [
-            share("tint of reflection", reflection)?,
-            share("tint of transmission", transmission)?,
-        ];
+        let tints = tints(reflection, transmission)?;
         Ok(Self { tints, ..self })
     }
 

@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 use super::{Bitmap, Site};
 use crate::geometry::{Direction, Vector};
+use crate::shape::along_u;
 
 /// A relief.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,16 +71,14 @@ impl Relief {
         &self,
         site: &Site,
         plain: Direction,
-        [u, v]: [Vector; 2],
+        gradients: [Vector; 2],
         scale: f64,
     ) -> Option<Vector> {
         let n = plain.to_vector();
-        // The direction along which u grows and v does not.
-        let along = v.cross(n);
-        let along = if along.dot(u) < 0.0 { -along } else { along };
+        let along = along_u(gradients);
         let t = Direction::new(along - n * along.dot(n)).ok()?.to_vector();
         let b = n.cross(t);
-        let b = if b.dot(v) < 0.0 { -b } else { b };
+        let b = if b.dot(gradients[1]) < 0.0 { -b } else { b };
         let [x, y, z, _] = self
             .bitmap
             .at(self.place(site))

@@ -227,15 +227,28 @@ fn check_bitmap(bitmap: &Bitmap, lanes: &Lanes) -> Result<(), String> {
     lanes.check_colours().map_err(|error| error.to_string())?;
     let grey_only = !(lanes.is_rgb() || lanes.is_spectral());
     let texels = bitmap.texels();
+    let coloured = |index| {
+        let [r, g, b, _] = texels.at(index);
+        r != g || g != b
+    };
+    if grey_only && (0..texels.len()).any(coloured) {
+        return Err(
+            "a coloured texture needs `spectrum = \"rgb\"` or `\"spectral\"`: bands know grey only"
+                .into(),
+        );
+    }
+    check_shares(bitmap)
+}
+
+/// What no picture of parts or of numbers may exceed.
+pub(super) fn check_shares(bitmap: &Bitmap) -> Result<(), String> {
+    let texels = bitmap.texels();
     // Codes of 8 and 16 bits lie between 0 and 1 as they are.
-    if !grey_only && !matches!(texels, Texels::Float(_)) {
+    if !matches!(texels, Texels::Float(_)) {
         return Ok(());
     }
     for index in 0..texels.len() {
         let [r, g, b, alpha] = texels.at(index);
-        if grey_only && (r != g || g != b) {
-            return Err("a coloured texture needs `spectrum = \"rgb\"` or `\"spectral\"`: bands know grey only".into());
-        }
         if r.max(g).max(b).max(alpha) > 1.0 {
             return Err(format!(
                 "the values of a texture lie between 0 and 1; texel {index} is [{r}, {g}, {b}, {alpha}]"

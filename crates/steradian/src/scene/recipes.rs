@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use super::Fault;
 use super::curves::Curves;
 use super::description::{LaneValues, Scalar, Varying};
-use super::materials::{hue, textures, tint};
+use super::materials::{check_shares, hue, textures, tint};
 use crate::brdf::measured::Reading;
 use crate::brdf::{Measured, ModelError};
 use crate::material::{Hue, PreparedRecipe, Recipe, Role, Roughness, Tint, Turn};
@@ -120,6 +120,9 @@ impl Turn<'_, Varying, Scalar> for InLanes<'_> {
         if placed.any(|x| !x.is_finite()) {
             return Err((key, "the placement of a texture is finite".into()));
         }
+        if let Some(picture) = picture {
+            check_shares(&picture.bitmap).map_err(|message| (key, message))?;
+        }
         Ok(number.clone())
     }
 
@@ -187,6 +190,7 @@ mod tests {
         Brdf, ComplexIndex, Facets, OrenNayar, Pane, RoughConductor, Shadowing, Slopes,
     };
     use crate::geometry::Direction;
+    use crate::material::{Bitmap, Picture, Texels};
     use crate::material::{ColorLanes, Material, Media, Model, Roughness, Site};
     use crate::quantity::Spectrum;
     use crate::spectrum::{Curve, Grid, Wavelengths};
@@ -282,6 +286,26 @@ mod tests {
         let wo = Direction::from_polar(0.6, 0.8, 1.0);
         let difference = found.albedo(wo).mean() - expected.albedo(wo).mean();
         assert!(difference.abs() < 1e-5, "{difference}");
+    }
+
+    #[test]
+    fn pictures_of_numbers_do_not_exceed_1() {
+        let bitmap = Bitmap::new(1, 1, Texels::Float(vec![[0.5, 1.5, 0.0, 1.0]])).unwrap();
+        let picture = Picture {
+            bitmap: Arc::new(bitmap),
+            placement: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            channel: 0,
+        };
+        let plaster = Recipe::OrenNayar {
+            reflectance: rgb([0.5; 3]),
+            sigma: Scalar {
+                factor: 0.3,
+                picture: Some(picture),
+            },
+        };
+        let (key, message) = material(&plaster).unwrap_err();
+        assert_eq!(key, "sigma");
+        assert!(message.contains("between 0 and 1"), "{message}");
     }
 
     #[test]

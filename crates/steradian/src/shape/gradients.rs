@@ -17,7 +17,7 @@ impl Form {
     pub fn coordinate_gradients(&self, face: usize, point: Point) -> Option<[Vector; 2]> {
         let gradients = match self {
             Self::Parallelogram(form) => duals(form.edges, [[1.0, 0.0], [0.0, 1.0]]),
-            Self::Mesh(mesh) => of_triangle(mesh, face)?,
+            Self::Mesh(mesh) => mesh.coordinate_gradients(face)?,
             Self::Sphere(sphere) => around(point - sphere.center),
             Self::Disc(disc) => {
                 let frame = Frame::from_normal(disc.normal);
@@ -33,19 +33,31 @@ impl Form {
                     .map(|axis| frame.vector_to_world(axis))
             }
         };
-        let grow = |gradient: &Vector| gradient.is_finite() && gradient.length() > 0.0;
-        gradients.iter().all(grow).then_some(gradients)
+        growing(gradients)
     }
 }
 
-fn of_triangle(mesh: &TriangleMesh, face: usize) -> Option<[Vector; 2]> {
-    let coordinates = &mesh.attributes.coordinates;
-    let at = |corner: u32| coordinates.get(corner as usize).map(|uv| uv.map(f64::from));
-    let [a, b, c] = mesh.triangles[face].map(at);
-    let (a, b, c) = (a?, b?, c?);
-    let [p, q, r] = mesh.corners(face);
-    let steps = [b, c].map(|corner| [corner[0] - a[0], corner[1] - a[1]]);
-    Some(duals([q - p, r - p], steps))
+impl TriangleMesh {
+    /// ∇u and ∇v on a triangle; `None` where there are no coordinates, or where they do not grow.
+    pub fn coordinate_gradients(&self, face: usize) -> Option<[Vector; 2]> {
+        let coordinates = &self.attributes.coordinates;
+        let at = |corner: u32| coordinates.get(corner as usize).map(|uv| uv.map(f64::from));
+        let [a, b, c] = self.triangles[face].map(at);
+        let (a, b, c) = (a?, b?, c?);
+        let [p, q, r] = self.corners(face);
+        let steps = [b, c].map(|corner| [corner[0] - a[0], corner[1] - a[1]]);
+        growing(duals([q - p, r - p], steps))
+    }
+}
+
+/// The direction in which u grows and v does not, of any length: v × (u × v).
+pub fn along_u([u, v]: [Vector; 2]) -> Vector {
+    u * v.dot(v) - v * u.dot(v)
+}
+
+fn growing(gradients: [Vector; 2]) -> Option<[Vector; 2]> {
+    let grow = |gradient: &Vector| gradient.is_finite() && gradient.length() > 0.0;
+    gradients.iter().all(grow).then_some(gradients)
 }
 
 /// The vectors in the plane of two edges whose products with them are the steps of u, and of v.

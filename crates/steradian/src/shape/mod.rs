@@ -25,6 +25,7 @@ mod surfaces;
 pub use disc::Disc;
 pub use enclosure::{Enclosure, Side};
 pub use form::{AreaSample, Form};
+pub use gradients::along_u;
 pub use mesh::{Attributes, TriangleMesh};
 pub use parallelogram::Parallelogram;
 pub use solid::Solid;

@@ -8,7 +8,7 @@ use super::towards::triangle_of;
 use crate::brdf::Brdf;
 use crate::geometry::{Direction, Frame, Point, Vector};
 use crate::material::Site;
-use crate::shape::{Form, TriangleMesh};
+use crate::shape::{Form, along_u};
 use crate::spectrum::Wavelengths;
 
 impl Tables<'_> {
@@ -79,7 +79,7 @@ impl Tables<'_> {
         let (shape, face) = self.scene.surfaces().face_of(primitive);
         let tangent = match &self.scene.surfaces().shape(shape).form {
             Form::Parallelogram(form) => Some(form.edges[0]),
-            Form::Mesh(mesh) => first_coordinate(mesh, face),
+            Form::Mesh(mesh) => mesh.coordinate_gradients(face).map(along_u),
             _ => None,
         };
         let frame = tangent.and_then(|tangent| Frame::from_normal_and_tangent(normal, tangent));
@@ -128,19 +128,6 @@ fn site_of(form: &Form, face: usize, weights: [f32; 2], point: Point) -> Site {
         color: form.color(face, weights),
         normal: form.vertex_normal(face, weights),
     }
-}
-
-/// Where the first texture coordinate grows over a triangle, if it does.
-fn first_coordinate(mesh: &TriangleMesh, face: usize) -> Option<Vector> {
-    let coordinates = &mesh.attributes.coordinates;
-    let at = |corner: u32| coordinates.get(corner as usize).map(|uv| uv.map(f64::from));
-    let [a, b, c] = mesh.triangles[face].map(at);
-    let (a, b, c) = (a?, b?, c?);
-    let [p, q, r] = mesh.corners(face);
-    let (first, second) = (b[1] - a[1], c[1] - a[1]);
-    let determinant = (b[0] - a[0]) * second - (c[0] - a[0]) * first;
-    let tangent = ((q - p) * second - (r - p) * first) / determinant;
-    tangent.length().is_finite().then_some(tangent)
 }
 
 /// What a form knows of a point on one of its faces.

@@ -18,6 +18,7 @@
 use std::ops::Range;
 use std::path::Path;
 
+use super::numbers::Numbers;
 use super::source::{Source, shortened};
 use super::{IntensityUnit, LampSet, Opening, Photometry, symmetry};
 use crate::diagnostic::Diagnostic;
@@ -53,8 +54,8 @@ impl Reader<'_> {
         for _ in 0..RATIOS {
             self.text("a direct ratio")?;
         }
-        let planes = self.angles(head.planes, "an angle C")?;
-        let (start, gammas) = (self.0.place(), self.angles(head.angles, "an angle γ")?);
+        let planes = self.angles(head.planes, "an angle C")?.1;
+        let (start, gammas) = (self.0.place(), self.angles(head.angles, "an angle γ")?.1);
         let laterals = self.listed(&head, &planes)?;
         let mut sets = head.sets.into_iter();
         let first = sets.next();
@@ -167,19 +168,6 @@ impl Reader<'_> {
         })
     }
 
-    fn angles(&mut self, count: usize, what: &str) -> Result<Vec<f64>, Diagnostic> {
-        let mut angles: Vec<f64> = Vec::with_capacity(count);
-        for index in 0..count {
-            let (span, angle) = self.number(&format!("{what} ({} of {count})", index + 1))?;
-            if let Some(&previous) = angles.last().filter(|previous| **previous >= angle) {
-                let message = format!("angles must increase: {angle} follows {previous}");
-                return Err(self.0.error(span, message));
-            }
-            angles.push(angle);
-        }
-        Ok(angles)
-    }
-
     /// The planes whose intensities are in the file, in its order.
     fn listed(&self, head: &Head, planes: &[f64]) -> Result<Vec<f64>, Diagnostic> {
         let (span, symmetry) = &head.symmetry;
@@ -207,20 +195,6 @@ impl Reader<'_> {
         })
     }
 
-    fn intensities(&mut self, count: usize, factor: f64) -> Result<Vec<f64>, Diagnostic> {
-        let mut values = Vec::with_capacity(count);
-        for index in 0..count {
-            let (span, value) = self.number(&format!("an intensity ({} of {count})", index + 1))?;
-            let value = value * factor;
-            if !(value.is_finite() && value >= 0.0) {
-                let message = "an intensity is finite and not negative";
-                return Err(self.0.error(span, message));
-            }
-            values.push(value);
-        }
-        Ok(values)
-    }
-
     fn text(&mut self, what: &str) -> Result<(Range<usize>, String), Diagnostic> {
         if let Some((span, line)) = self.0.line() {
             return Ok((span, line.to_owned()));
@@ -236,11 +210,6 @@ impl Reader<'_> {
         if text.is_empty() {
             return Ok((span, 0.0));
         }
-        self.parse(span, &text, what)
-    }
-
-    fn number(&mut self, what: &str) -> Result<(Range<usize>, f64), Diagnostic> {
-        let (span, text) = self.text(what)?;
         self.parse(span, &text, what)
     }
 
@@ -272,5 +241,16 @@ impl Reader<'_> {
         let (from, to) = (range.start(), range.end());
         let message = format!("expected {what}, {from} to {to}, found {number}");
         Err(self.0.error(span, message))
+    }
+}
+
+impl Numbers for Reader<'_> {
+    fn number(&mut self, what: &str) -> Result<(Range<usize>, f64), Diagnostic> {
+        let (span, text) = self.text(what)?;
+        self.parse(span, &text, what)
+    }
+
+    fn error(&self, span: Range<usize>, message: String) -> Diagnostic {
+        self.0.error(span, message)
     }
 }

@@ -15,6 +15,7 @@
 
 mod eulumdat;
 mod ies;
+mod numbers;
 mod opening;
 mod source;
 mod symmetry;

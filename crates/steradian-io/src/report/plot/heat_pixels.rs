@@ -22,8 +22,7 @@ const INK: [u8; 3] = [51; 3];
 pub(super) fn encode(map: &HeatMap, scale: &Scale) -> Result<Vec<u8>, PlotError> {
     let pixels = draw(map, scale);
     let note = format!("{}. Colours: {}", map.title, map.legend);
-    encode_with_texts(&pixels, [("Description", note)])
-        .map_err(|error| PlotError::Encoding(error.to_string()))
+    Ok(encode_with_texts(&pixels, [("Description", note)])?)
 }
 
 fn draw(map: &HeatMap, scale: &Scale) -> Pixels {

@@ -22,6 +22,8 @@ pub use hemisphere_map::{HemisphereMap, HemispherePanel};
 pub use line_plot::{LinePlot, Series};
 pub use polar_plot::{PolarCurve, PolarPlot};
 
+use super::error::ReportError;
+
 /// Why numbers make no diagram.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -70,4 +72,10 @@ pub enum PlotError {
         /// How many it has.
         found: usize,
     },
+}
+
+impl From<ReportError> for PlotError {
+    fn from(error: ReportError) -> Self {
+        Self::Encoding(error.to_string())
+    }
 }

@@ -77,10 +77,7 @@ impl PolarPlot {
     /// # Errors
     /// Those of [`to_svg`](Self::to_svg), and if there are too many pixels.
     pub fn to_png(&self) -> Result<Vec<u8>, PlotError> {
-        let drawing = self.drawing()?;
-        drawing
-            .to_png()
-            .map_err(|error| PlotError::Encoding(error.to_string()))
+        Ok(self.drawing()?.to_png()?)
     }
 
     fn drawing(&self) -> Result<Svg, PlotError> {

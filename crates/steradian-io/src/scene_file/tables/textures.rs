@@ -34,6 +34,12 @@ pub const WRAP: Key = Key::default(
     "\"repeat\"",
     "How the picture goes on beyond its edge",
 );
+const NUMBER_FACTOR: Key = Key::default(
+    "factor",
+    Value::Number,
+    "1",
+    "What the texture is multiplied by",
+);
 pub const INTERPOLATION: Key = Key::default(
     "interpolation",
     Value::Choice(&["bilinear", "nearest"]),
@@ -114,12 +120,7 @@ pub const OPACITY_TEXTURE: Record = Record {
         OFFSET,
         WRAP,
         INTERPOLATION,
-        Key::default(
-            "factor",
-            Value::Number,
-            "1",
-            "What the texture is multiplied by",
-        ),
+        NUMBER_FACTOR,
         Key::optional(
             "cutoff",
             Value::Number,
@@ -155,12 +156,7 @@ pub const NUMBER_TEXTURE: Record = Record {
         OFFSET,
         WRAP,
         INTERPOLATION,
-        Key::default(
-            "factor",
-            Value::Number,
-            "1",
-            "What the texture is multiplied by",
-        ),
+        NUMBER_FACTOR,
     ],
 };
 

@@ -41,7 +41,7 @@ use super::facets::{Facets, Shadowing, Slopes};
 use super::interface_light::{first_shares, weighed_shares};
 use super::shelf::{Blend, Recent, Shelf};
 use super::table::Table;
-use crate::brdf::error::{in_range, share};
+use crate::brdf::error::{in_range, tints};
 use crate::brdf::fresnel::{dielectric, dielectric_average, refract};
 use crate::brdf::sampling::{choose, flipped};
 use crate::brdf::{ModelError, Scatter};
@@ -128,10 +128,7 @@ impl RoughDielectric {
         reflection: Spectrum,
         transmission: Spectrum,
     ) -> Result<Self, ModelError> {
-        let tints = [
-            share("tint of reflection", reflection)?,
-            share("tint of transmission", transmission)?,
-        ];
+        let tints = tints(reflection, transmission)?;
         Ok(Self { tints, ..self })
     }
 

@@ -9,7 +9,7 @@
 //!
 //! Source: CIE 17.4 (1987), 845-09-37 (beam spread); CIE 52-1982 (flux code); ANSI/IES LS-1 (field angle).
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use super::FarField;
 
@@ -72,11 +72,6 @@ impl FarField {
         let azimuth = if angle < 0.0 { azimuth + PI } else { azimuth };
         self.at_angles(azimuth, angle.abs())
     }
-
-    /// Whether any light goes above the horizontal.
-    pub fn goes_up(&self) -> bool {
-        self.flux_within(FRAC_PI_2) < self.flux()
-    }
 }
 
 /// Where the first of these steps passes below a level.
@@ -93,6 +88,8 @@ fn crossing(
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
     use super::*;
     use crate::light::Planes;
 
@@ -139,6 +136,6 @@ mod tests {
     fn light_that_ends_at_full_strength_spreads_to_the_end() {
         let lamp = rotational(&[0.0, 60.0], &[1.0, 1.0]);
         assert!((lamp.spread(0.0, 0.5).unwrap().to_degrees() - 120.0).abs() < 1e-12);
-        assert!(!lamp.goes_up());
+        assert_eq!(lamp.flux_within(FRAC_PI_2), lamp.flux());
     }
 }

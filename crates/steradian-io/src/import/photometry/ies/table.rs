@@ -7,6 +7,7 @@ use steradian::light::{FarField, Planes};
 use super::header::{Edition, Header};
 use super::warning;
 use crate::diagnostic::Diagnostic;
+use crate::import::photometry::numbers::Numbers;
 use crate::import::photometry::opening::Opening;
 use crate::import::photometry::source::Source;
 use crate::import::photometry::symmetry;
@@ -45,9 +46,13 @@ impl Table {
         let mut warnings = Vec::new();
         let preamble = Preamble::read(source, header.edition, &mut warnings)?;
         let [verticals, laterals] = preamble.counts;
-        let verticals = angles(source, verticals, "a vertical angle")?;
-        let laterals = angles(source, laterals, "a lateral angle")?;
-        let table = intensities(source, [&laterals.1, &verticals.1], preamble.factor)?;
+        let verticals = source.angles(verticals, "a vertical angle")?;
+        let laterals = source.angles(laterals, "a lateral angle")?;
+        let table = intensities(
+            source,
+            laterals.1.len() * verticals.1.len(),
+            preamble.factor,
+        )?;
         let completed = match preamble.planes {
             Planes::C => symmetry::whole_turn(&laterals.1, &verticals.1, &table),
             planes => symmetry::latitudes(planes, &laterals.1, &verticals.1, &table),
@@ -190,48 +195,11 @@ fn opening(
     }))
 }
 
-/// Angles that increase, and where they stand.
-fn angles(
-    source: &mut Source,
-    count: usize,
-    what: &str,
-) -> Result<(Range<usize>, Vec<f64>), Diagnostic> {
-    let mut angles: Vec<f64> = Vec::with_capacity(count);
-    let mut place = 0..0;
-    for index in 0..count {
-        let expected = format!("{what} ({} of {count})", index + 1);
-        let (span, angle) = source.number(&expected)?;
-        if let Some(&previous) = angles.last().filter(|previous| **previous >= angle) {
-            let message = format!("angles must increase: {angle} follows {previous}");
-            return Err(source.error(span, message));
-        }
-        let start = if index == 0 { span.start } else { place.start };
-        place = start..span.end;
-        angles.push(angle);
-    }
-    Ok((place, angles))
-}
-
-fn intensities(
-    source: &mut Source,
-    [laterals, verticals]: [&[f64]; 2],
-    factor: f64,
-) -> Result<Vec<f64>, Diagnostic> {
-    let count = laterals.len() * verticals.len();
+/// The intensities of every lateral angle.
+fn intensities(source: &mut Source, count: usize, factor: f64) -> Result<Vec<f64>, Diagnostic> {
     if count as f64 > MOST_NODES {
         let message = format!("{count} intensities are more than the limit of {MOST_NODES}");
         return Err(Diagnostic::error(message).about(&source.file));
     }
-    let mut values = Vec::with_capacity(count);
-    for index in 0..count {
-        let expected = format!("an intensity ({} of {count})", index + 1);
-        let (span, value) = source.number(&expected)?;
-        let value = value * factor;
-        if !(value.is_finite() && value >= 0.0) {
-            let message = "an intensity is finite and not negative";
-            return Err(source.error(span, message));
-        }
-        values.push(value);
-    }
-    Ok(values)
+    source.intensities(count, factor)
 }
