@@ -8,7 +8,7 @@ use steradian::transport::Picture;
 
 use crate::part::{Kind, Parts};
 use crate::picture::{Finished, LookArguments};
-use crate::result::{Format, Readings};
+use crate::result::{Format, Readings, VERSION};
 use crate::status::{Failure, Outcome};
 
 /// Put the parts of a run together that `--shard` computed
@@ -46,6 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             Readings {
                 measurements,
                 scene_hash,
+                version: VERSION.to_owned(),
             }
             .write(arguments.format, Some(&arguments.output))
         }

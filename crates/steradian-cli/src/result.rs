@@ -43,6 +43,8 @@ pub struct Readings {
     pub measurements: Measurements,
     /// Hash of the scene.
     pub scene_hash: String,
+    /// Version of the program that measured.
+    pub version: String,
 }
 
 impl Readings {
@@ -51,11 +53,11 @@ impl Readings {
         let run = Run {
             measurements: &self.measurements,
             scene_hash: &self.scene_hash,
-            version: VERSION,
+            version: &self.version,
         };
         let text = match format.unwrap_or_else(|| Format::of(file)) {
             Format::Table => table::encode(&run),
-            Format::Json => json::encode(&run),
+            Format::Json => json::encode(&run)?,
             Format::Csv => csv::encode(&run)?,
         };
         output::write(text.as_bytes(), file)?;

@@ -10,6 +10,7 @@ use steradian::time::TimeError;
 use steradian::transport::SimulationError;
 use steradian_io::diagnostic::{self, Diagnostic};
 use steradian_io::report::ReportError;
+use steradian_io::report::stored::StoredError;
 
 /// It ran.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +58,12 @@ impl From<io::Error> for Failure {
 
 impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+impl From<StoredError> for Failure {
+    fn from(error: StoredError) -> Self {
         Self::Other(error.into())
     }
 }

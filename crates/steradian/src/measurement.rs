@@ -3,17 +3,19 @@
 //! A result keeps the replicate means of every column, so that sums, shares and dimmed groups keep their covariances
 //! and so that shards can be put together bit for bit. Only [`Estimate`]s leave it.
 
+mod check;
 mod dimming;
 mod exposure;
 mod merge;
 
+pub use check::Contradiction;
 pub use dimming::{Dimming, ScheduleError};
 pub use exposure::Exposure;
 
 use serde::{Deserialize, Serialize};
 
 use crate::estimation::{Estimate, Replicates};
-use crate::sensor::{Readout, SitsOn};
+use crate::sensor::{Layout, Readout, SitsOn};
 
 /// A lane of the run's spectrum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,6 +53,8 @@ pub struct SensorRecord {
     pub name: String,
     /// What it reports.
     pub quantities: Vec<Readout>,
+    /// How its points lie side by side, if they are a grid.
+    pub layout: Option<Layout>,
     /// Its points.
     pub points: Vec<PointRecord>,
 }
@@ -294,6 +298,7 @@ mod tests {
             sensors: vec![SensorRecord {
                 name: "desk".into(),
                 quantities: vec![readout],
+                layout: None,
                 points: vec![point],
             }],
             unsampled: vec![],

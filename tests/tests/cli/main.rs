@@ -16,3 +16,4 @@ mod results;
 mod schedules;
 mod same_bytes;
 mod solid_angle;
+mod stored_results;

@@ -56,7 +56,7 @@ fn json_has_every_key_of_the_format() {
         "converged",
         "unsampled",
         "warnings",
-        "replicate_means",
+        "stored",
     ] {
         assert!(result.get(key).is_some(), "{key}");
     }
@@ -92,32 +92,6 @@ fn json_has_every_key_of_the_format() {
         (&reading["unit"], &reading["method"]),
         (&Value::from("lm"), &Value::from("estimate"))
     );
-}
-
-/// The mean of the replicates is the value, here with one group and one lane.
-#[test]
-fn replicate_means_carry_the_value() {
-    let result = json(&[
-        "measure",
-        "scenes/furnace.toml",
-        "--samples",
-        "4096",
-        "--format",
-        "json",
-    ]);
-    let means = result["replicate_means"].as_array().unwrap();
-    let of_sensor = means
-        .iter()
-        .find(|point| point["sensor"] == "scalar irradiance")
-        .unwrap();
-    let groups = of_sensor["groups"].as_object().unwrap();
-    let lane = groups.values().next().unwrap()["total"].as_array().unwrap();
-    let mean = lane.iter().map(|mean| mean.as_f64().unwrap()).sum::<f64>() / lane.len() as f64;
-    let value = reading(&result, "scalar irradiance", 0, "scalar irradiance")["value"]
-        .as_f64()
-        .unwrap();
-    assert_eq!(lane.len(), 16);
-    assert!((mean / value - 1.0).abs() < 1e-12);
 }
 
 #[test]

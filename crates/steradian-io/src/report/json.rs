@@ -1,30 +1,38 @@
 //! Readings as one JSON object, `"schema": "steradian.result/1"`.
 //!
-//! Beside each reading's `value`, `std_error` and `confidence_interval` it holds `replicate_means`: for each point, light
-//! group and lane the mean of every independent replicate (or the exact value), in the radiant unit of the sensor's
-//! quantity. With them lamps can be dimmed or switched afterwards: weigh and add the means of each replicate, and the
-//! spread of the sums gives their error, covariances included. What is unknown is `null`.
+//! What is unknown is `null`. Beside the readings it holds, as `stored` on one line, what they were derived from, and
+//! [`stored::read`](super::stored::read) reads that back bit for bit: of each point the sums of every independent replicate
+//! by column (light group by light group, lane by lane in each), the samples of the replicates, and the exact part of each
+//! column, in the radiant unit of the sensor's quantity. With them lamps can be dimmed or switched afterwards: weigh and add
+//! the means of each replicate, and the spread of the sums gives their error, covariances included.
 //!
 //! A run that was asked for an interval states it as `over`, and in each reading as `exposure` what the reading adds up to, by
 //! seconds and, `in_hours`, by hours. `at` is the time that readings belong to; `null` means that all lights give all they can.
 
 use serde_json::{Map, Value, json};
 use steradian::estimation::Estimate;
-use steradian::measurement::{Exposure, Measurements, PointRecord, Reading, SensorRecord};
+use steradian::measurement::{Exposure, Reading};
 use steradian::quantity::Time;
 
+use super::error::ReportError;
 use super::run::{Run, SAMPLING_ERROR_ONLY};
 
 /// Name and version of the format.
 pub const SCHEMA: &str = "steradian.result/1";
 
-/// The object, on indented lines.
-pub fn encode(run: &Run<'_>) -> String {
-    format!("{:#}\n", value(run))
+/// The object: on indented lines what people look at, on the last one what programs do.
+///
+/// # Errors
+/// If a number of the measurements cannot be written.
+pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
+    let stored = serde_json::to_string(run.measurements)
+        .map_err(|error| ReportError::Encoding(error.to_string()))?;
+    let report = format!("{:#}", report(run));
+    let open = report.strip_suffix("\n}").unwrap_or(&report);
+    Ok(format!("{open},\n  \"stored\": {stored}\n}}\n"))
 }
 
-/// The object.
-pub fn value(run: &Run<'_>) -> Value {
+fn report(run: &Run<'_>) -> Value {
     let measurements = run.measurements;
     let readings = measurements.readings();
     json!({
@@ -47,7 +55,6 @@ pub fn value(run: &Run<'_>) -> Value {
         })),
         "note": SAMPLING_ERROR_ONLY,
         "readings": readings.iter().map(reading).collect::<Vec<_>>(),
-        "replicate_means": replicate_means(measurements),
     })
 }
 
@@ -108,57 +115,13 @@ fn parts(parts: &[(String, Estimate)]) -> Value {
     Value::Object(parts.iter().map(part).collect())
 }
 
-fn replicate_means(measurements: &Measurements) -> Vec<Value> {
-    let points = |sensor: &SensorRecord| -> Vec<Value> {
-        sensor
-            .points
-            .iter()
-            .map(|point| point_means(measurements, sensor, point))
-            .collect()
-    };
-    measurements.sensors.iter().flat_map(points).collect()
-}
-
-fn point_means(measurements: &Measurements, sensor: &SensorRecord, point: &PointRecord) -> Value {
-    let lanes = measurements.lanes.len();
-    let group = |name: &String| {
-        let numbers = measurements.groups.iter().zip(0..);
-        let numbers: Vec<usize> = numbers
-            .filter(|(known, _)| *known == name)
-            .map(|(_, number)| number * lanes)
-            .collect();
-        let lane = |at: usize| {
-            let columns: Vec<usize> = numbers.iter().map(|first| first + at).collect();
-            (measurements.lanes[at].name.clone(), sum(point, &columns))
-        };
-        (name.clone(), Value::Object((0..lanes).map(lane).collect()))
-    };
-    let names = measurements.group_names().into_iter();
-    let groups: Map<String, Value> = names.map(group).collect();
-    json!({ "sensor": sensor.name, "index": point.index, "groups": groups })
-}
-
-/// Of the sum of some columns the exact value plus the mean of each replicate; one number where nothing was sampled.
-fn sum(point: &PointRecord, columns: &[usize]) -> Value {
-    let exact: f64 = columns.iter().map(|column| point.exact[*column]).sum();
-    let Some(replicates) = &point.replicates else {
-        return json!([exact]);
-    };
-    let mut weights = vec![0.0; replicates.columns()];
-    columns.iter().for_each(|column| weights[*column] = 1.0);
-    replicates
-        .means(&weights)
-        .map(|mean| mean + exact)
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::run::tests::{measurements, run};
     use super::*;
 
     fn object() -> Value {
-        serde_json::from_str(&encode(&run(&measurements()))).unwrap()
+        serde_json::from_str(&encode(&run(&measurements())).unwrap()).unwrap()
     }
 
     #[test]
@@ -196,16 +159,5 @@ mod tests {
             json!({ "value": 0.0, "std_error": null })
         );
         assert_eq!(readings[1]["sits_on"]["shape"], "desk");
-    }
-
-    #[test]
-    fn replicate_means_stand_by_group_and_lane() {
-        let object = object();
-        let means = &object["replicate_means"][1]["groups"]["lamp"]["visible"];
-        assert_eq!(means, &json!([1.0, 2.0, 3.0, 4.0]));
-        assert_eq!(
-            object["replicate_means"][0]["groups"]["lamp"]["visible"],
-            json!([80.0])
-        );
     }
 }

@@ -1,4 +1,4 @@
-//! Results out: tables, JSON and CSV of readings; EXR, PFM, HDR and PNG pictures; SVG diagrams; shards.
+//! Results out: tables, JSON and CSV of readings; EXR, PFM, HDR and PNG pictures; SVG diagrams; shards. JSON in again.
 //!
 //! Every encoder turns a result into bytes or text and touches no file; [`write_atomically`] puts bytes under a name in
 //! one step, so that a run that stops half-way leaves no half-written output. The same result gives the same bytes.
@@ -23,6 +23,7 @@ pub mod png;
 mod raster;
 pub mod run;
 pub mod shard;
+pub mod stored;
 pub mod svg;
 pub mod table;
 pub mod tone;
@@ -33,3 +34,4 @@ pub use image::{Channel, ImageFacts, PixelQuantity, RadianceImage};
 pub use picture_file::{Look, PictureFormat};
 pub use run::Run;
 pub use shard::Shard;
+pub use stored::StoredRun;

@@ -48,7 +48,7 @@ pub(super) mod tests {
         let measurements = json!({
             "scene_name": "A, \"desk\"", "seed": 3, "confidence": 0.95, "luminous_efficacy": 179.0, "max_depth": null,
             "lanes": [{ "name": "visible" }, { "name": "nir" }], "groups": ["lamp", "window"],
-            "sensors": [{ "name": "a, b", "quantities": [irradiance], "points": points }],
+            "sensors": [{ "name": "a, b", "quantities": [irradiance], "layout": null, "points": points }],
             "unsampled": ["point lights seen in mirrors"], "warnings": ["a warning"], "shard": null,
         });
         serde_json::from_value(measurements).unwrap()

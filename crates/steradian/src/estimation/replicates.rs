@@ -50,6 +50,14 @@ impl Replicates {
         }
     }
 
+    /// Whether sums, samples and confidence are such as a run of so many columns has.
+    pub(crate) fn are_of(&self, columns: usize) -> bool {
+        let cells = self.samples.len() * columns;
+        let sampled = self.samples.iter().any(|samples| *samples > 0);
+        let within = self.confidence > 0.0 && self.confidence < 1.0;
+        self.columns() == columns && self.sums.len() == cells && sampled && within
+    }
+
     /// Number of columns.
     #[must_use]
     pub fn columns(&self) -> usize {

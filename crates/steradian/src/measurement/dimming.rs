@@ -105,6 +105,16 @@ impl Dimming {
         self.schedules.iter().zip(groups).map(of_group).collect()
     }
 
+    /// Whether it is about so many groups.
+    pub(super) fn is_of(&self, groups: usize) -> bool {
+        let fits = |length: usize| length == groups;
+        let moment = self.moment.as_ref();
+        let period = self.period.as_ref();
+        (self.schedules.is_empty() || fits(self.schedules.len()))
+            && moment.is_none_or(|moment| fits(moment.factors.len()))
+            && period.is_none_or(|period| fits(period.seconds.len()))
+    }
+
     /// Whether any group has a schedule.
     pub fn has_schedules(&self) -> bool {
         self.schedules.iter().any(Option::is_some)

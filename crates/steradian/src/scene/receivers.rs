@@ -3,11 +3,11 @@
 use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
 
 use super::Fault;
-use super::description::{Receivers, Side};
+use super::description::{Receivers, SensorKind, Side};
 use super::sensors::Context;
 use crate::geometry::{Direction, Point, Vector};
 use crate::sampling::{block, hash};
-use crate::sensor::{Receiver, SitsOn};
+use crate::sensor::{Layout, Receiver, SitsOn};
 use crate::shape::{Form, ShapeId};
 
 /// Points a sensor may have.
@@ -30,7 +30,7 @@ impl Context<'_> {
                 edges,
                 count,
                 normal,
-            } => ("grid", grid(*origin, *edges, *count, *normal)?),
+            } => ("grid", grid(&layout(*origin, *edges, *count), *normal)?),
             Receivers::Shape {
                 shape,
                 side,
@@ -155,18 +155,33 @@ fn given(points: &[(Point, Vector)]) -> Result<Vec<(Point, Direction)>, Fault> {
     points.iter().map(point).collect()
 }
 
-/// Cell centres, row by row along the first edge.
-fn grid(
-    origin: Point,
-    edges: [Vector; 2],
-    count: [u32; 2],
-    normal: Option<Vector>,
-) -> Result<Vec<(Point, Direction)>, Fault> {
-    let [columns, rows] = count;
-    check_count("count", u64::from(columns) * u64::from(rows))?;
-    let normal = direction_of("grid", normal.unwrap_or(edges[0].cross(edges[1])))?;
-    let at = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
-    let cell = |i, j| origin + edges[0] * at(i, columns) + edges[1] * at(j, rows);
-    let row = |j: u32| (0..columns).map(move |i| (cell(i, j), normal));
-    Ok((0..rows).flat_map(row).collect())
+/// How the points of a sensor lie side by side, if they are a grid.
+pub(super) fn layout_of(kind: &SensorKind) -> Option<Layout> {
+    let SensorKind::Irradiance(Receivers::Grid {
+        origin,
+        edges,
+        count,
+        ..
+    }) = kind
+    else {
+        return None;
+    };
+    Some(layout(*origin, *edges, *count))
+}
+
+fn layout(origin: Point, edges: [Vector; 2], count: [u32; 2]) -> Layout {
+    Layout {
+        origin: origin.to_array(),
+        edges: edges.map(Vector::to_array),
+        count,
+    }
+}
+
+/// Centres of a grid's cells.
+fn grid(layout: &Layout, normal: Option<Vector>) -> Result<Vec<(Point, Direction)>, Fault> {
+    check_count("count", layout.cells())?;
+    let [first, second] = layout.edges.map(Vector::from);
+    let normal = direction_of("grid", normal.unwrap_or(first.cross(second)))?;
+    let centre = |index| (Point::from(layout.centre(index)), normal);
+    Ok((0..layout.cells()).map(centre).collect())
 }

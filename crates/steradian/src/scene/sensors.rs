@@ -9,7 +9,7 @@ use super::description::{
 use super::forms::Forms;
 use super::geometry::virtual_form;
 use super::lights::Builder;
-use super::receivers::{direction_of, no_points};
+use super::receivers::{direction_of, layout_of, no_points};
 use super::spectral_readouts;
 use super::{Fault, Part, Problem};
 use crate::geometry::{Point, Vector};
@@ -72,6 +72,7 @@ impl Context<'_> {
         Ok(Sensor {
             name: description.name.clone(),
             readouts,
+            layout: layout_of(&description.kind),
             kind,
         })
     }

@@ -10,9 +10,11 @@
 //! A sensor of any kind sees every light: lights without extent by the inverse-square law, all others by sampling.
 
 mod camera;
+mod layout;
 pub(crate) mod readout;
 
 pub use camera::{Camera, Fisheye, Projection};
+pub use layout::Layout;
 pub use readout::{Bins, Readout, Response, readouts};
 
 use serde::{Deserialize, Serialize};
@@ -77,6 +79,8 @@ pub struct Sensor {
     pub name: String,
     /// What it reports.
     pub readouts: Vec<Readout>,
+    /// How its points lie side by side, if they are a grid.
+    pub layout: Option<Layout>,
     /// What it measures.
     pub kind: Kind,
 }

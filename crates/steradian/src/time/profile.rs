@@ -17,10 +17,27 @@ pub enum Rule {
 
 /// A record of numbers in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub(super) struct Profile {
     times: Vec<f64>,
     values: Vec<f64>,
     rule: Rule,
+}
+
+/// What a file says.
+#[derive(Deserialize)]
+struct Unchecked {
+    times: Vec<f64>,
+    values: Vec<f64>,
+    rule: Rule,
+}
+
+impl TryFrom<Unchecked> for Profile {
+    type Error = TimeError;
+
+    fn try_from(file: Unchecked) -> Result<Self, TimeError> {
+        Self::new(file.times.into_iter().zip(file.values), file.rule)
+    }
 }
 
 impl Profile {

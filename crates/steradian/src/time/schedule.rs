@@ -32,9 +32,28 @@ use crate::quantity::Time;
 /// # Ok::<(), steradian::time::TimeError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub struct Schedule {
     profile: Profile,
     period: Option<f64>,
+}
+
+/// What a file says.
+#[derive(Deserialize)]
+struct Unchecked {
+    profile: Profile,
+    period: Option<f64>,
+}
+
+impl TryFrom<Unchecked> for Schedule {
+    type Error = TimeError;
+
+    fn try_from(file: Unchecked) -> Result<Self, TimeError> {
+        let points = file.profile.points();
+        let points = points.map(|(time, factor)| (Time::from_seconds(time), factor));
+        let period = file.period.map(Time::from_seconds);
+        Self::new(points, file.profile.rule(), period)
+    }
 }
 
 impl Schedule {

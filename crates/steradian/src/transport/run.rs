@@ -324,6 +324,7 @@ fn record(
         SensorRecord {
             name: sensor.name.clone(),
             quantities: sensor.readouts.clone(),
+            layout: sensor.layout,
             points,
         }
     });

@@ -1,5 +1,7 @@
 //! `steradian measure`: what the sensors of a scene read.
 
+mod result_file;
+
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -16,7 +18,7 @@ use crate::engine::Engine;
 use crate::load;
 use crate::part::{self, Kind};
 use crate::progress::Watch;
-use crate::result::{Format, Readings};
+use crate::result::{Format, Readings, VERSION};
 use crate::status::{Failure, Outcome, remark};
 use crate::{points, tolerance, values};
 
@@ -32,11 +34,15 @@ const DEFAULT_REL_ERROR: f64 = 0.01;
 /// Lights may have a schedule, factors in the course of time. Readings are those of factor 1, or with --at those of a time; with
 /// --duration each is also added up over an interval, exactly and without tracing light again.
 ///
+/// The JSON of an earlier run may stand in place of the scene: it is read and printed again, in any format and at any time of
+/// the schedules, and nothing is traced.
+///
 /// Lights given in watts give readings in W/m2, W, W/(m2 sr); lights given in lumens or candela give lx, lm, cd/m2.
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
-    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL)
+    /// Scene file (TOML), a file of another program (glTF, OBJ, PLY, STL), or a result of `measure` (.json)
+    #[arg(value_name = "SCENE|RESULT")]
     scene: PathBuf,
     /// Read this sensor only; may be given several times
     #[arg(long, value_name = "NAME")]
@@ -63,6 +69,7 @@ Examples:
   steradian measure scenes/point-light.toml
   steradian measure scenes/closed-room.toml --rel-error 0.2% --format json -o room.json
   steradian measure scenes/lamps-equal.toml --time 10s --format csv
+  steradian measure room.json --format csv      the same readings again, from the file
   steradian measure scenes/working-day.toml --start 7h --duration 12h
   steradian measure scenes/furnace.toml --samples 65536 --shard 1/3 -o part1";
 
@@ -88,10 +95,8 @@ struct When {
 }
 
 impl When {
-    /// How much light each group of the scene gives.
-    fn dimming(&self, scene: &Scene) -> Result<Dimming, Failure> {
-        let groups = scene.groups();
-        let mut dimming = Dimming::new(scene.schedules().to_vec());
+    /// How much light each group gives, where it is asked for; else as it was.
+    fn dimming(&self, mut dimming: Dimming, groups: &[String]) -> Result<Dimming, Failure> {
         if let Some(time) = self.at {
             dimming = dimming.at(time, groups)?;
         }
@@ -121,26 +126,14 @@ struct Stop {
     samples: Option<u64>,
 }
 
-/// Measures and writes the result, or the part of it that a shard is.
+/// Measures or reads a result, and writes it, or the part of it that a shard is.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
-    let loaded = load::scene_with(&arguments.scene, |description| {
-        add_points(arguments, description)
-    })?;
-    let options = options(arguments, &loaded.scene)?;
-    let dimming = arguments.when.dimming(&loaded.scene)?;
-    let mut watch = Watch::new()?;
-    let mut measurements = measure(&loaded.scene, &options, &mut watch)?;
-    measurements.dimming = dimming;
-    if watch.finish() {
-        remark("stopped by Ctrl-C: these are the readings so far");
-    }
-    let (readings, file) = (
-        Readings {
-            measurements,
-            scene_hash: loaded.hash,
-        },
-        arguments.output.as_deref(),
-    );
+    let readings = if result_file::is_one(&arguments.scene) {
+        result_file::read(arguments)?
+    } else {
+        traced(arguments)?
+    };
+    let file = arguments.output.as_deref();
     match arguments.engine.shard {
         Some(_) => part::write(
             Kind::Readings,
@@ -150,6 +143,28 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         ),
         None => readings.write(arguments.format, file),
     }
+}
+
+/// Readings of a scene.
+fn traced(arguments: &Arguments) -> Result<Readings, Failure> {
+    let loaded = load::scene_with(&arguments.scene, |description| {
+        add_points(arguments, description)
+    })?;
+    let scene = &loaded.scene;
+    let options = options(arguments, scene)?;
+    let schedules = Dimming::new(scene.schedules().to_vec());
+    let dimming = arguments.when.dimming(schedules, scene.groups())?;
+    let mut watch = Watch::new()?;
+    let mut measurements = measure(scene, &options, &mut watch)?;
+    measurements.dimming = dimming;
+    if watch.finish() {
+        remark("stopped by Ctrl-C: these are the readings so far");
+    }
+    Ok(Readings {
+        measurements,
+        scene_hash: loaded.hash,
+        version: VERSION.to_owned(),
+    })
 }
 
 fn options(arguments: &Arguments, scene: &Scene) -> Result<MeasureOptions, Failure> {
