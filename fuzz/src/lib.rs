@@ -13,6 +13,7 @@ use steradian::spectrum::Beyond;
 use steradian::transport::Picture;
 use steradian_io::diagnostic::render;
 use steradian_io::files::MemoryFiles;
+use steradian_io::import::boundaries::{BoundaryLine, read_boundaries};
 use steradian_io::import::image::Encoding;
 use steradian_io::import::{MeshFile, bsdf, gltf, image, obj, ply, points, series, spectrum, stl};
 use steradian_io::report::Shard;
@@ -22,7 +23,7 @@ use steradian_io::scene_file::read_scene_str;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target.
-pub const TARGETS: [Target; 15] = [
+pub const TARGETS: [Target; 16] = [
     ("scene_file", scene_file),
     ("obj", obj),
     ("mtl", mtl),
@@ -37,6 +38,7 @@ pub const TARGETS: [Target; 15] = [
     ("rgl", rgl),
     ("points", points),
     ("series", series),
+    ("boundaries", boundaries),
     ("shard", shard),
 ];
 
@@ -199,6 +201,20 @@ pub fn series(bytes: &[u8]) {
             );
         }
         Err(problems) => assert!(!render(&problems, false).is_empty()),
+    }
+}
+
+/// Lists of what is known of surfaces that exchange heat.
+pub fn boundaries(bytes: &[u8]) {
+    let files = MemoryFiles::default().with("a.csv", bytes);
+    match read_boundaries(Path::new("a.csv"), &files) {
+        Ok(lines) => {
+            let is_sound = |line: &BoundaryLine| {
+                !line.surface.is_empty() && line.emissivity.is_none_or(f64::is_finite)
+            };
+            assert!(lines.iter().all(is_sound));
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
     }
 }
 

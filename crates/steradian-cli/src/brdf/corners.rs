@@ -159,19 +159,9 @@ const RANGES: &[Range] = &[
         "ward",
         &["diffuse=[0.4,0.2,0.1]", "specular=0.3"],
         &[
-            ("alpha_x", &["0.05", "0.2", "1"]),
-            ("alpha_y", &["0.01", "0.1", "1"]),
+            ("alpha_x", &["0.002", "0.05", "0.2", "1"]),
+            ("alpha_y", &["0.002", "0.01", "0.1", "1"]),
         ],
-    ),
-    range(
-        "ward",
-        &["diffuse=[0.4,0.2,0.1]", "specular=0.3"],
-        &[("alpha_x", &["0.002", "1"]), ("alpha_y", &["0.002"])],
-    ),
-    range(
-        "ward",
-        &["diffuse=[0.4,0.2,0.1]", "specular=0.3"],
-        &[("alpha_x", &["0.002"]), ("alpha_y", &["1"])],
     ),
     range(
         "radiance-plastic",

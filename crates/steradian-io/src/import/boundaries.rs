@@ -124,11 +124,14 @@ fn wrong(path: &str, error: &csv::Error) -> BoundaryError {
 fn line(surface: &str, fields: [&str; 4]) -> Result<BoundaryLine, String> {
     let number = |text: &str| match text {
         "" => Ok(None),
-        text => text
-            .parse()
-            .map(Some)
-            .map_err(|_| format!("`{text}` is no number")),
+        text => match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(Some(number)),
+            _ => Err(format!("`{text}` is no number")),
+        },
     };
+    if surface.is_empty() {
+        return Err("the surface has no name; `*` is every other one".to_owned());
+    }
     let [emissivity, temperature, exitance, net_flux] = fields.map(number);
     let known = [
         temperature?.map(Boundary::Temperature),
@@ -169,6 +172,8 @@ mod tests {
         assert!(message("name,temperature\na,1\n").contains("no column `name`"));
         assert!(message("temperature\n1\n").contains("heading"));
         assert!(message("surface,temperature\na,hot\n").contains("line 2: `hot` is no number"));
+        assert!(message("surface,temperature\na,nan\n").contains("line 2: `nan` is no number"));
+        assert!(message("surface,temperature\n,1\n").contains("line 2: the surface has no name"));
         assert!(message("surface,temperature,exitance\na,1,2\n").contains("give one of"));
         assert!(message("surface,temperature\na\n").contains("line 2"));
     }

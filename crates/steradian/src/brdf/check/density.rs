@@ -3,7 +3,8 @@
 //! A side of the surface is a rectangle in 1 − |cosθ| and φ, in which equal areas are equal solid angles, and whose edge is the
 //! horizon. It is halved across its longer side, as measured on the sphere, until a cell holds few of a pilot's directions:
 //! cells of a sharp lobe are small, whatever its width. The share of a cell is ∫ pdf dω by Gauss's rule of order 5, halved in both
-//! directions until it no longer changes.
+//! directions until it no longer changes, and on towards any direction drawn where the density is so high that the rule cannot have
+//! seen it: the rim of a cell may hold the edge of a streak that lies between all its nodes.
 
 use std::f64::consts::TAU;
 
@@ -15,6 +16,10 @@ const RELATIVE: f64 = 2e-4;
 const ABSOLUTE: f64 = 1e-6;
 /// Enough for the edges of tabulated patches.
 const DEEPEST_RULE: u32 = 7;
+/// Levels more towards what the rule cannot have seen: cells there are as small as 2⁻¹⁶ of a leaf.
+const DEEPER: u32 = 9;
+/// A density this many times the mean of its cell was not seen.
+const STEEPEST: f64 = 8.0;
 const DEEPEST_CELL: u32 = 64;
 
 /// A direction by its side (false: above), 1 − |cosθ| and φ in 0 … 2π.
@@ -33,6 +38,12 @@ impl Spot {
             below: z < 0.0,
             at: [(x * x + y * y) / (1.0 + z.abs()), phi],
         }
+    }
+
+    fn direction(&self) -> Direction {
+        let [u, phi] = self.at;
+        let z = if self.below { u - 1.0 } else { 1.0 - u };
+        Direction::from_polar(sin_of(u), z, phi)
     }
 }
 
@@ -91,9 +102,11 @@ impl Cell {
         shares: &mut Vec<Share>,
     ) {
         if pilot.len() <= most || depth == 0 {
+            let witness = |spot: &Spot| (*spot, pdf(spot.direction()));
+            let witnesses: Vec<_> = pilot.iter().chain(&drawn).map(witness).collect();
             shares.push(Share {
                 found: drawn.len(),
-                expected: self.integral(pdf, DEEPEST_RULE),
+                expected: self.refined(pdf, self.by_rule(pdf), &witnesses, 0),
             });
             return;
         }
@@ -125,24 +138,50 @@ impl Cell {
         usize::from(across > along)
     }
 
-    fn integral(&self, pdf: &impl Fn(Direction) -> f64, depth: u32) -> f64 {
-        self.refined(pdf, self.by_rule(pdf), depth)
-    }
-
-    /// The sum of the quarters, as soon as it is what the whole gave.
-    fn refined(&self, pdf: &impl Fn(Direction) -> f64, whole: f64, depth: u32) -> f64 {
+    /// The sum of the quarters, as soon as it is what the whole gave and as high as where `witnesses` of the density stand.
+    fn refined(
+        &self,
+        pdf: &impl Fn(Direction) -> f64,
+        whole: f64,
+        witnesses: &[(Spot, f64)],
+        depth: u32,
+    ) -> f64 {
         let quarters = self.halves(0).map(|half| half.halves(1));
         let parts = quarters.as_flattened();
         let found: Vec<f64> = parts.iter().map(|part| part.by_rule(pdf)).collect();
         let sum: f64 = found.iter().sum();
-        if depth == 0 || (sum - whole).abs() <= RELATIVE * sum.abs() + ABSOLUTE {
+        let settled = (sum - whole).abs() <= RELATIVE * sum.abs() + ABSOLUTE;
+        let goes_on = if depth < DEEPEST_RULE {
+            !settled || self.overlooks(witnesses, sum)
+        } else {
+            depth < DEEPEST_RULE + DEEPER && self.overlooks(witnesses, sum)
+        };
+        if !goes_on {
             return sum;
         }
-        parts
+        let refine = |(part, found): (&Self, f64)| {
+            let inside = witnesses.iter().filter(|(spot, _)| part.holds(spot));
+            let inside: Vec<_> = inside.copied().collect();
+            part.refined(pdf, found, &inside, depth + 1)
+        };
+        parts.iter().zip(found).map(refine).sum()
+    }
+
+    /// Whether the density is much higher somewhere than the integral makes it on average.
+    fn overlooks(&self, witnesses: &[(Spot, f64)], integral: f64) -> bool {
+        let peak = witnesses
             .iter()
-            .zip(found)
-            .map(|(part, found)| part.refined(pdf, found, depth - 1))
-            .sum()
+            .map(|(_, density)| *density)
+            .fold(0.0, f64::max);
+        peak * self.solid_angle() > STEEPEST * integral
+    }
+
+    fn solid_angle(&self) -> f64 {
+        (self.high[0] - self.low[0]) * (self.high[1] - self.low[1])
+    }
+
+    fn holds(&self, spot: &Spot) -> bool {
+        (0..2).all(|k| self.low[k] <= spot.at[k] && spot.at[k] < self.high[k])
     }
 
     fn by_rule(&self, pdf: &impl Fn(Direction) -> f64) -> f64 {
@@ -153,19 +192,14 @@ impl Cell {
         for &(node, weight) in rule {
             let u = at(0, node);
             for &(other, other_weight) in rule {
-                sum += weight * other_weight * pdf(self.direction(u, at(1, other)));
+                let spot = Spot {
+                    below: self.below,
+                    at: [u, at(1, other)],
+                };
+                sum += weight * other_weight * pdf(spot.direction());
             }
         }
         sum * half[0] * half[1]
-    }
-
-    fn direction(&self, u: f64, phi: f64) -> Direction {
-        let up = Direction::from_polar(sin_of(u), 1.0 - u, phi);
-        if self.below {
-            Direction::from_polar(sin_of(u), u - 1.0, phi)
-        } else {
-            up
-        }
     }
 }
 

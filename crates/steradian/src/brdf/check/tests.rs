@@ -43,6 +43,32 @@ fn shares_add_up_to_the_integral_of_the_density() {
     assert!((sum - 1.0).abs() < 1e-4, "{sum}");
 }
 
+/// A normal distribution in u = 1 − cosθ and φ, .002 by .05 wide, away from all nodes of a side's rule and of its quarters'.
+#[test]
+fn a_streak_between_the_nodes_of_a_cell_is_seen() {
+    let (middle, widths) = ([0.37, 2.0], [0.002, 0.05]);
+    let streak = |wi: Direction| {
+        let away = [
+            1.0 - wi.z() - middle[0],
+            libm::atan2(wi.y(), wi.x()) - middle[1],
+        ];
+        let steps = [0, 1].map(|k| away[k] / widths[k]);
+        let exponent = steps[0] * steps[0] + steps[1] * steps[1];
+        FRAC_1_PI * libm::exp(-exponent) / (widths[0] * widths[1])
+    };
+    let drawn: Vec<Spot> = uniform_pairs(7, 60)
+        .map(|[a, b]| {
+            let (radius, (sin, cos)) = ((-libm::log(1.0 - a)).sqrt(), libm::sincos(TAU * b));
+            let u = middle[0] + widths[0] * radius * cos;
+            let phi = middle[1] + widths[1] * radius * sin;
+            Spot::of(Direction::from_polar((u * (2.0 - u)).sqrt(), 1.0 - u, phi))
+        })
+        .collect();
+    let none: [Spot; 0] = [];
+    let sum = share_sum(&shares(&streak, &none, &drawn, 1));
+    assert!((sum - 1.0).abs() < 2e-3, "{sum}");
+}
+
 #[test]
 fn a_sharp_metal_is_resolved() {
     let facets = Facets::isotropic(Slopes::Ggx, 0.005).unwrap();
