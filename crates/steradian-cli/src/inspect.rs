@@ -5,7 +5,9 @@ mod findings;
 mod json;
 mod luminaire;
 mod measured;
+mod polar;
 mod triangles;
+mod ugr;
 
 use std::path::PathBuf;
 
@@ -41,7 +43,8 @@ use triangles::Triangles;
 ///
 /// Of a luminaire (IES LM-63, EULUMDAT): header, flux by exact integration of the table as it is interpolated, light output ratio,
 /// efficacy, greatest intensity, beam angle (half of the greatest intensity of a plane) and field angle (a tenth), CIE flux code,
-/// luminous opening.
+/// luminous opening, and the UGR table: glare in rooms of X across and Y along the line of sight, over the height H of the luminaires above the eye, by CIE
+/// 117 and CIE 190. An entry "-" has no luminaire that shines towards the observer.
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -56,6 +59,9 @@ pub struct Arguments {
     /// End with status 1 if anything is found or not sampled
     #[arg(long)]
     strict: bool,
+    /// Draw the intensity of a luminaire in the planes C0-C180 and C90-C270, the one of C0 and C90 to the right
+    #[arg(long, value_name = "FILE.svg|FILE.png")]
+    plot: Option<PathBuf>,
 }
 
 const EXAMPLES: &str = "\
@@ -64,7 +70,8 @@ Examples:
   steradian inspect model.obj --weld 0.1mm --strict
   steradian inspect scenes/lamps-equal.toml --format json
   steradian inspect blinds.xml --strict
-  steradian inspect downlight.ies";
+  steradian inspect downlight.ies
+  steradian inspect pendant.ldt --plot pendant.svg";
 
 /// What is known of a scene beyond the scene itself.
 struct Inspection<'a> {
@@ -80,11 +87,15 @@ struct Inspection<'a> {
 
 /// Prints the lists.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let plot = arguments.plot.as_deref();
+    if is_luminaire(&arguments.scene) {
+        return luminaire::run(&arguments.scene, arguments.format, arguments.strict, plot);
+    }
+    if plot.is_some() {
+        return Err(Failure::message("--plot draws luminaires (IES, LDT)"));
+    }
     if is_measured(&arguments.scene) {
         return measured::run(&arguments.scene, arguments.format, arguments.strict);
-    }
-    if is_luminaire(&arguments.scene) {
-        return luminaire::run(&arguments.scene, arguments.format, arguments.strict);
     }
     let loaded = load::scene(&arguments.scene)?;
     let inspection = Inspection::new(&loaded, arguments.weld);

@@ -1,5 +1,6 @@
 //! Where results go.
 
+use std::ffi::OsStr;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -31,4 +32,16 @@ pub fn write(bytes: &[u8], file: Option<&Path>) -> Result<(), Failure> {
 /// Prints to standard output.
 pub fn print(text: &str) -> Result<(), Failure> {
     write(text.as_bytes(), None)
+}
+
+/// Whether a drawing goes to a PNG rather than an SVG, by its name.
+pub fn is_png(file: &Path) -> Result<bool, Failure> {
+    match file.extension().and_then(OsStr::to_str) {
+        Some("svg") => Ok(false),
+        Some("png") => Ok(true),
+        _ => Err(Failure::message(format!(
+            "{}: a drawing is an .svg or .png file",
+            file.display()
+        ))),
+    }
 }

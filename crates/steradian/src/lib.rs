@@ -18,3 +18,4 @@ pub mod scene;
 pub mod measurement;
 pub mod transport;
 pub mod exchange;
+pub mod glare;

@@ -1,6 +1,5 @@
 //! `steradian brdf plot`: lobes, albedos and maps of models.
 
-use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -8,7 +7,7 @@ use steradian::geometry::{Direction, Spherical};
 use steradian::quantity::Angle;
 use steradian_io::report::numbers::significant;
 use steradian_io::report::plot::{
-    Axis, HemisphereMap, HemispherePanel, LinePlot, PlotError, PolarCurve, PolarPlot, Series,
+    Axis, HemisphereMap, HemispherePanel, LinePlot, PlotError, PolarCurve, PolarPlot, Series, Zero,
 };
 
 use super::direction::Incident;
@@ -94,11 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Kind::Albedo => Drawing::Albedo(albedos(&models, arguments.incident.phi_i)),
         Kind::Map => Drawing::Map(maps(&models, arguments)),
     };
-    let is_png = match arguments.output.extension().and_then(OsStr::to_str) {
-        Some("svg") => false,
-        Some("png") => true,
-        _ => return Err(Failure::message("expected -o FILE.svg or -o FILE.png")),
-    };
+    let is_png = output::is_png(&arguments.output)?;
     let bytes = drawing
         .bytes(is_png)
         .map_err(|error| Failure::Other(error.into()))?;
@@ -175,6 +170,7 @@ fn lobes(models: &[Model], arguments: &Arguments) -> PolarPlot {
         value: value_axis(arguments.log),
         curves: models.iter().map(curve).collect(),
         arrows: vec![-incident.theta_i.to_degrees()],
+        zero: Zero::Above,
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a luminaire's file holds: header, flux by exact integration, beams, the CIE flux code, and what is wrong.
+//! What a luminaire's file holds: header, flux by exact integration, beams, the CIE flux code, and UGR table, what is wrong.
 
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -11,6 +11,7 @@ use steradian_io::import::photometry::{IntensityUnit, Opening, Photometry, read}
 use steradian_io::report::columns::Columns;
 use steradian_io::report::numbers::significant;
 
+use super::{polar, ugr};
 use crate::output::{self, Format};
 use crate::status::{Failure, Outcome};
 
@@ -21,9 +22,17 @@ const DIGITS: i32 = 5;
 /// Parts of the greatest intensity at the edges of a beam and a field.
 const SPREADS: [(&str, f64); 2] = [("beam", 0.5), ("field", 0.1)];
 
-/// Prints the figures.
-pub fn run(path: &Path, format: Format, strict: bool) -> Result<Outcome, Failure> {
+/// Prints the figures, and draws the diagram if it is asked for.
+pub fn run(
+    path: &Path,
+    format: Format,
+    strict: bool,
+    plot: Option<&Path>,
+) -> Result<Outcome, Failure> {
     let lamp = read(path, &DiskFiles::default()).map_err(Failure::Input)?;
+    if let Some(file) = plot {
+        polar::draw(&lamp, path, file)?;
+    }
     output::print(&match format {
         Format::Table => table(path, &lamp),
         Format::Json => format!("{:#}\n", as_json(path, &lamp)),
@@ -52,7 +61,8 @@ fn table(path: &Path, lamp: &Photometry) -> String {
         true => String::new(),
         false => render(&lamp.warnings, false),
     };
-    let mut sections = vec![heading.to_string(), figures.to_string(), warnings];
+    let ratings = ugr::table(&ugr::of(lamp));
+    let mut sections = vec![heading.to_string(), figures.to_string(), ratings, warnings];
     sections.retain(|section| !section.is_empty());
     sections.join("\n")
 }
@@ -215,6 +225,7 @@ fn as_json(path: &Path, lamp: &Photometry) -> Value {
         "flux_code": flux_code(lamp),
         "opening": opening(&lamp.opening),
         "symmetry": lamp.symmetry,
+        "ugr": ugr::as_json(&ugr::of(lamp)),
         "warnings": warnings.collect::<Vec<_>>(),
     })
 }

@@ -6,6 +6,7 @@ use steradian::exchange::Row;
 use steradian_io::report::form_factors::FactorReport;
 use steradian_io::report::plot::{HeatMap, PlotError};
 
+use crate::output;
 use crate::status::Failure;
 
 /// More rows than this are put together by neighbours.
@@ -17,13 +18,9 @@ const DECADES: f64 = 5.0;
 pub fn drawing(rows: &[Row], report: &FactorReport, file: &Path) -> Result<Vec<u8>, Failure> {
     let map = map(rows, report);
     let failed = |error: PlotError| Failure::Other(error.into());
-    match file.extension().and_then(|ending| ending.to_str()) {
-        Some("svg") => Ok(map.to_svg().map_err(failed)?.into_bytes()),
-        Some("png") => map.to_png().map_err(failed),
-        _ => Err(Failure::message(format!(
-            "{}: a drawing is an .svg or .png file",
-            file.display()
-        ))),
+    match output::is_png(file)? {
+        false => Ok(map.to_svg().map_err(failed)?.into_bytes()),
+        true => map.to_png().map_err(failed),
     }
 }
 

@@ -43,7 +43,7 @@ struct Head {
     symmetry: (Range<usize>, usize),
     planes: usize,
     angles: usize,
-    opening: Opening,
+    opening: (Opening, [f64; 4]),
     factor: f64,
     sets: Vec<LampSet>,
 }
@@ -74,7 +74,8 @@ impl Reader<'_> {
             lamps: first.as_ref().map_or(0.0, |set| set.lamps.abs()),
             watts: first.as_ref().map_or(0.0, |set| set.watts),
             other_sets: sets.collect(),
-            opening: head.opening,
+            opening: head.opening.0,
+            side_heights: Some(head.opening.1),
             tilt: None,
             warnings: Vec::new(),
         })
@@ -119,29 +120,28 @@ impl Reader<'_> {
     }
 
     /// In millimetres: length (or diameter), width (0: round), and the height of each side.
-    fn opening(&mut self) -> Result<Opening, Diagnostic> {
+    fn opening(&mut self) -> Result<(Opening, [f64; 4]), Diagnostic> {
         let mut metres = |what: &str| Ok(self.optional(what)?.1.abs() / 1000.0);
         let length = metres("the length of the luminous area")?;
         let width = metres("the width of the luminous area")?;
-        let mut height = 0.0_f64;
-        for side in ["C0", "C90", "C180", "C270"] {
-            height = height.max(metres(&format!(
-                "the height of the luminous area at {side}"
-            ))?);
+        let mut heights = [0.0; 4];
+        for (height, side) in heights.iter_mut().zip(["C0", "C90", "C180", "C270"]) {
+            *height = metres(&format!("the height of the luminous area at {side}"))?;
         }
-        Ok(match (length > 0.0, width > 0.0) {
+        let opening = match (length > 0.0, width > 0.0) {
             (false, false) => Opening::Point,
             (true, false) => Opening::Upright {
                 width: length,
                 length,
-                height,
+                height: heights.into_iter().fold(0.0, f64::max),
             },
             _ => Opening::Box {
                 width: length,
                 length: width,
-                height,
+                height: heights.into_iter().fold(0.0, f64::max),
             },
-        })
+        };
+        Ok((opening, heights))
     }
 
     fn sets(&mut self) -> Result<Vec<LampSet>, Diagnostic> {

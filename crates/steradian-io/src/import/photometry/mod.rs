@@ -17,6 +17,7 @@ mod eulumdat;
 mod ies;
 mod numbers;
 mod opening;
+mod projected_area;
 mod source;
 mod symmetry;
 
@@ -75,6 +76,8 @@ pub struct Photometry {
     pub other_sets: Vec<LampSet>,
     /// Where light leaves.
     pub opening: Opening,
+    /// Heights in m of the luminous sides that face C0, C90, C180 and C270, where the file tells them apart.
+    pub side_heights: Option<[f64; 4]>,
     /// How the lamp fares when the luminaire is tilted.
     pub tilt: Option<Tilt>,
     /// What may not be as its author thinks.
@@ -111,5 +114,7 @@ pub fn read(path: &Path, files: &dyn Files) -> Result<Photometry, Vec<Diagnostic
     }
 }
 
+#[cfg(test)]
+mod glare_tests;
 #[cfg(test)]
 mod tests;

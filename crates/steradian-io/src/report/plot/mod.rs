@@ -20,7 +20,7 @@ pub use axis::Axis;
 pub use heat_map::HeatMap;
 pub use hemisphere_map::{HemisphereMap, HemispherePanel};
 pub use line_plot::{LinePlot, Series};
-pub use polar_plot::{PolarCurve, PolarPlot};
+pub use polar_plot::{PolarCurve, PolarPlot, Zero};
 
 use super::error::ReportError;
 

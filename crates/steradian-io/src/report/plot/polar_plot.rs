@@ -1,4 +1,4 @@
-//! Curves around a point, such as lobes of reflection in the plane of incidence.
+//! Curves around a point, such as lobes of reflection in the plane of incidence, or the intensity of a luminaire.
 
 use super::PlotError;
 use super::axis::Axis;
@@ -25,22 +25,23 @@ const DECADES: f64 = 1e-4;
 pub struct PolarCurve {
     /// For the key.
     pub name: String,
-    /// (angle in degrees from the vertical, positive to the right; value ≥ 0), in order.
+    /// (angle in degrees from the vertical, positive to the right, −180 … 180; value ≥ 0), in order.
     pub points: Vec<[f64; 2]>,
     /// Whether it is drawn in dashes.
     pub dashed: bool,
 }
 
-/// A diagram of one or more curves. Angles run from the vertical; the lower half is drawn only where something lies there.
+/// A diagram of one or more curves. Angles run from the vertical; the half beyond the horizontal is drawn only where something lies there.
 ///
 /// ```
-/// use steradian_io::report::plot::{Axis, PolarCurve, PolarPlot};
+/// use steradian_io::report::plot::{Axis, PolarCurve, PolarPlot, Zero};
 /// let cosine = |degrees: i32| [f64::from(degrees), libm::cos(f64::from(degrees).to_radians())];
 /// let plot = PolarPlot {
 ///     title: "Lambert's law".to_owned(),
 ///     value: Axis::new("intensity", "W/sr"),
 ///     curves: vec![PolarCurve { name: "cosine".to_owned(), points: (-90..=90).map(cosine).collect(), dashed: false }],
 ///     arrows: vec![],
+///     zero: Zero::Above,
 /// };
 /// assert!(plot.to_svg()?.contains("intensity (W/sr)"));
 /// # Ok::<(), steradian_io::report::plot::PlotError>(())
@@ -55,12 +56,25 @@ pub struct PolarPlot {
     pub curves: Vec<PolarCurve>,
     /// Arrows that come in from these angles in degrees.
     pub arrows: Vec<f64>,
+    /// Where the angle 0 is.
+    pub zero: Zero,
+}
+
+/// Which way the angle 0 points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Zero {
+    /// Up, as of lobes over a surface.
+    #[default]
+    Above,
+    /// Down, as of lamps.
+    Below,
 }
 
 /// Where things are on the sheet.
 struct Place {
     center: [f64; 2],
     is_whole: bool,
+    zero: Zero,
 }
 
 impl PolarPlot {
@@ -83,12 +97,8 @@ impl PolarPlot {
     fn drawing(&self) -> Result<Svg, PlotError> {
         self.check()?;
         let scale = self.scale();
-        let is_whole = self.has_lower_half();
-        let place = Place {
-            center: [MARGIN + RADIUS, TOP + RADIUS],
-            is_whole,
-        };
-        let bottom = place.center[1] + if is_whole { RADIUS + 20.0 } else { 0.0 };
+        let place = Place::new(self.reaches_beyond_the_horizontal(), self.zero);
+        let bottom = place.bottom();
         let mut sheet = Svg::new(2.0 * (MARGIN + RADIUS) + self.key_width(), bottom + BELOW);
         sheet.text(
             [place.center[0], 28.0],
@@ -147,8 +157,8 @@ impl PolarPlot {
         Scale::new(&linear, [0.0, largest])
     }
 
-    /// Whether anything but 0 lies below the horizontal.
-    fn has_lower_half(&self) -> bool {
+    /// Whether anything but 0 lies there.
+    fn reaches_beyond_the_horizontal(&self) -> bool {
         let points = self.curves.iter().flat_map(|curve| &curve.points);
         points
             .clone()
@@ -183,12 +193,37 @@ impl PolarPlot {
 }
 
 impl Place {
+    fn new(is_whole: bool, zero: Zero) -> Self {
+        let above = match zero {
+            Zero::Below if !is_whole => 0.0,
+            _ => RADIUS,
+        };
+        Self {
+            center: [MARGIN + RADIUS, TOP + above],
+            is_whole,
+            zero,
+        }
+    }
+
+    /// The lower end of the diagram.
+    fn bottom(&self) -> f64 {
+        let below = match self.zero {
+            Zero::Above if !self.is_whole => 0.0,
+            _ => RADIUS + 20.0,
+        };
+        self.center[1] + below
+    }
+
     /// The point at this angle and part of the radius.
     fn at(&self, degrees: f64, part: f64) -> [f64; 2] {
         let (sin, cos) = libm::sincos(degrees.to_radians());
+        let up = match self.zero {
+            Zero::Above => cos,
+            Zero::Below => -cos,
+        };
         [
             self.center[0] + RADIUS * part * sin,
-            self.center[1] - RADIUS * part * cos,
+            self.center[1] - RADIUS * part * up,
         ]
     }
 
@@ -200,7 +235,11 @@ impl Place {
                 .collect();
             sheet.polyline(&arc, &Stroke::new(GRID, 1.0));
             let [x, y] = self.at(90.0, part);
-            sheet.text([x, y + 16.0], &label, TICK_SIZE, Anchor::Middle, INK);
+            let beside = match self.zero {
+                Zero::Above => 16.0,
+                Zero::Below => -6.0,
+            };
+            sheet.text([x, y + beside], &label, TICK_SIZE, Anchor::Middle, INK);
         }
         for angle in (-reach..=reach).step_by(SPOKES as usize) {
             sheet.line(
@@ -281,6 +320,7 @@ mod tests {
                 dashed: true,
             }],
             arrows: vec![-45.0],
+            zero: Zero::Above,
         }
     }
 
@@ -305,6 +345,20 @@ mod tests {
                 .unwrap()
                 .contains("150°")
         );
+    }
+
+    /// The middle is (330, 78) where no light goes up, and straight down is 270 below it.
+    #[test]
+    fn lamps_shine_down() {
+        let lamp = |points: &[[f64; 2]]| PolarPlot {
+            zero: Zero::Below,
+            ..plot(points)
+        };
+        let svg = lamp(&[[-90.0, 0.0], [0.0, 1.0], [90.0, 0.0]]).to_svg();
+        let svg = svg.unwrap();
+        assert!(svg.contains(r#"points="330,78 330,348 330,78""#), "{svg}");
+        let up = lamp(&[[0.0, 1.0], [180.0, 0.5]]).to_svg().unwrap();
+        assert!(up.contains(r#"points="330,618 330,213""#), "{up}");
     }
 
     #[test]

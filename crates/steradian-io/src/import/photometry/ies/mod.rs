@@ -49,6 +49,7 @@ pub(super) fn read(path: &Path, files: &dyn Files) -> Result<Photometry, Vec<Dia
         watts: table.watts,
         other_sets: Vec::new(),
         opening: table.opening,
+        side_heights: None,
         far_field: table.far_field,
         symmetry: table.symmetry,
         format: header.format,
