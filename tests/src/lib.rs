@@ -16,6 +16,7 @@
 
 pub mod cases;
 pub mod command;
+pub mod luminaires;
 pub mod measuring;
 pub mod scenes;
 

@@ -275,6 +275,7 @@ pub fn light_kind(light: &Light) -> &'static str {
         LightKind::Directional { .. } => "directional",
         LightKind::Environment { .. } => "environment",
         LightKind::Area(_) => "area",
+        LightKind::Luminaire(_) => "luminaire",
     }
 }
 
@@ -284,6 +285,7 @@ pub fn power(scene: &Scene, light: &Light) -> Vec<(f64, &'static str)> {
     let (lanes, units) = match &light.kind {
         LightKind::Point(point) => (watts(point.flux()), ["W", "lm"]),
         LightKind::Spot(spot) => (watts(spot.flux()), ["W", "lm"]),
+        LightKind::Luminaire(luminaire) => (watts(luminaire.flux()), ["W", "lm"]),
         LightKind::Directional { irradiance, .. } => {
             let lanes = irradiance.map(|lane| lane.to_watts_per_square_metre());
             (lanes, ["W/m2", "lx"])

@@ -11,6 +11,7 @@ use steradian::scene::description::MaterialDescription;
 use crate::diagnostic::{Diagnostic, SourceFile};
 use crate::files::{Files, HashedFiles, reason};
 
+use super::luminaire::LoadedLuminaire;
 use super::mesh::LoadedMesh;
 use super::up::UpAxis;
 
@@ -23,6 +24,7 @@ pub(super) struct Context<'f> {
     files: HashedFiles<'f>,
     problems: RefCell<Vec<Diagnostic>>,
     meshes: RefCell<HashMap<String, Option<Arc<LoadedMesh>>>>,
+    luminaires: RefCell<HashMap<String, Option<Arc<LoadedLuminaire>>>>,
     materials: RefCell<Vec<(MaterialDescription, Range<usize>)>>,
     warnings: RefCell<Vec<String>>,
 }
@@ -37,6 +39,7 @@ impl<'f> Context<'f> {
             files: HashedFiles::new(files),
             problems: RefCell::default(),
             meshes: RefCell::default(),
+            luminaires: RefCell::default(),
             materials: RefCell::default(),
             warnings: RefCell::default(),
         };
@@ -97,6 +100,21 @@ impl<'f> Context<'f> {
         let mesh = read().map(Arc::new);
         self.meshes.borrow_mut().insert(key, mesh.clone());
         mesh
+    }
+
+    /// The luminaire of this file that was read before, or else the one that `read` gives.
+    pub fn luminaire(
+        &self,
+        name: &str,
+        read: impl FnOnce() -> Option<LoadedLuminaire>,
+    ) -> Option<Arc<LoadedLuminaire>> {
+        if let Some(known) = self.luminaires.borrow().get(name) {
+            return known.clone();
+        }
+        let luminaire = read().map(Arc::new);
+        let mut luminaires = self.luminaires.borrow_mut();
+        luminaires.insert(name.to_owned(), luminaire.clone());
+        luminaire
     }
 
     /// Adds a material of a file that the scene names at `span`, unless there is one of its name, and gives the name.

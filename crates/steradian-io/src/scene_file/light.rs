@@ -5,6 +5,7 @@ use steradian::scene::description::{LightDescription, LightKind, PointPower, Spo
 
 use super::fields::Fields;
 use super::keys::Value;
+use super::luminaire;
 use super::node::Node;
 use super::placement;
 use super::spectrum::LightSpectrum;
@@ -18,6 +19,7 @@ pub(super) fn read(node: Node<'_>) -> Option<LightDescription> {
         "point" => point(&fields),
         "spot" => spot(&fields),
         "directional" => directional(&fields),
+        "luminaire" => luminaire::read(&fields),
         _ => fields
             .get("radiance")
             .map(|radiance| LightKind::Environment { radiance }),

@@ -30,6 +30,7 @@ mod imported;
 mod keys;
 mod lanes;
 mod light;
+mod luminaire;
 mod material;
 mod mesh;
 mod models;

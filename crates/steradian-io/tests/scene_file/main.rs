@@ -1,6 +1,7 @@
 //! Scene files: every key, every kind of mistake, the shipped scenes, and files that are no scenes at all.
 
 mod every_key;
+mod luminaires;
 mod generated;
 mod models;
 mod mutations;
@@ -26,6 +27,10 @@ const HALF: &[u8] = b"#?RADIANCE\n\n-Y 1 +X 1\n\x80\x80\x80\x80";
 /// A measured surface.
 const MEASURED: &str = include_str!("../data/bsdf/radiance_testBSDF.xml");
 
+/// A luminaire of 10 cd towards below, whose opening is 1.2 m along C0 and 0.6 m across.
+const DOWNLIGHT: &str =
+    "IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 2 1 1 2 0.6 1.2 0\n1 1 25\n0 90\n0\n10 10\n";
+
 /// The spectrum of a lamp.
 const LAMP: &str = "nm,new,old\n400,0.1,0\n700,0.9,0.8\n";
 
@@ -35,6 +40,9 @@ fn files() -> MemoryFiles {
         .with("parts/half.hdr", HALF)
         .with("parts/blind.xml", MEASURED)
         .with("parts/lamp.csv", LAMP)
+        .with("parts/downlight.ies", DOWNLIGHT)
+        .with("parts/point.ies", DOWNLIGHT.replace("0.6 1.2 0", "0 0 0"))
+        .with("broken.ies", DOWNLIGHT.replace("0 90", "90 0"))
         .with("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n")
 }
 

@@ -347,7 +347,6 @@ fn what_is_planned_is_not_unknown() {
     for (good, planned) in [
         ("\"polygon\"", "\"cylinder\""),
         ("\"polygon\"", "\"cone\""),
-        ("\"spot\"", "\"luminaire\""),
         ("\"spot\"", "\"sun\""),
         ("\"spot\"", "\"sky\""),
         ("\"irradiance\"", "\"intensity\""),

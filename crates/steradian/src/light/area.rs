@@ -46,7 +46,7 @@ impl AreaLight {
             Form::Sphere(sphere) if is_outside(sphere, point) => {
                 self.towards_sphere(sphere, point, u)?
             }
-            _ => self.towards_area(form, point, u)?,
+            _ => towards_area(form, self.two_sided, point, u)?,
         };
         let patch = SolidAngle::from_steradians(1.0 / pdf);
         Some(Incident {
@@ -57,25 +57,6 @@ impl AreaLight {
                 .map(|radiance| radiance.normal_irradiance_over(patch)),
             density: Density::SolidAngle(pdf),
         })
-    }
-
-    fn towards_area(
-        &self,
-        form: &Form,
-        point: Point,
-        u: [f64; 2],
-    ) -> Option<(Direction, f64, f64)> {
-        let sample = form.sample_area(u)?;
-        let towards = sample.point - point;
-        let direction = Direction::new(towards).ok()?;
-        let cos_light = -direction.dot(sample.normal);
-        let seen = if self.two_sided {
-            cos_light.abs()
-        } else {
-            cos_light
-        };
-        let pdf = towards.dot(towards) / (form.sampling_area() * seen);
-        (seen > 0.0).then_some((direction, towards.length(), pdf))
     }
 
     fn towards_sphere(
@@ -100,6 +81,26 @@ impl AreaLight {
         let reach = distance * cos - half_chord.max(0.0).sqrt();
         Some((direction, reach, 1.0 / (TAU * one_minus_cos_max)))
     }
+}
+
+/// Direction to a point drawn by area, its distance, and the density p.
+pub(super) fn towards_area(
+    form: &Form,
+    two_sided: bool,
+    point: Point,
+    u: [f64; 2],
+) -> Option<(Direction, f64, f64)> {
+    let sample = form.sample_area(u)?;
+    let towards = sample.point - point;
+    let direction = Direction::new(towards).ok()?;
+    let cos_light = -direction.dot(sample.normal);
+    let seen = if two_sided {
+        cos_light.abs()
+    } else {
+        cos_light
+    };
+    let pdf = towards.dot(towards) / (form.sampling_area() * seen);
+    (seen > 0.0).then_some((direction, towards.length(), pdf))
 }
 
 /// Whether the cone of a sphere can be used.

@@ -11,17 +11,19 @@
 
 mod area;
 mod far_field;
+mod luminaire;
 mod point;
 mod spot;
 
 pub use area::AreaLight;
 pub use far_field::{FarField, FarFieldError, FarFieldSample, Planes};
+pub use luminaire::{Body, Extent, LuminaireLight, Opening, Outlet};
 pub use point::PointLight;
 pub use spot::{Beam, SpotLight};
 
 use crate::geometry::{Direction, Point};
 use crate::quantity::{Intensity, Irradiance, Radiance};
-use crate::shape::Form;
+use crate::shape::{Form, ShapeId};
 use crate::spectrum::{CurveId, MAX_LANES};
 
 /// A light, by number.
@@ -88,18 +90,39 @@ pub enum Kind {
     },
     /// A shape that emits.
     Area(AreaLight),
+    /// The intensity of a table, from a point or from an opening.
+    Luminaire(LuminaireLight),
 }
 
 impl Light {
     /// Whether the light has no extent, so that only next-event estimation can find it.
     pub fn is_delta(&self) -> bool {
-        matches!(
-            self.kind,
-            Kind::Point(_) | Kind::Spot(_) | Kind::Directional { .. }
-        )
+        match &self.kind {
+            Kind::Point(_) | Kind::Spot(_) | Kind::Directional { .. } => true,
+            Kind::Environment { .. } | Kind::Area(_) => false,
+            Kind::Luminaire(light) => light.surface().is_none(),
+        }
     }
 
-    /// Intensity, irradiance or radiance of the lanes, by kind, in SI units.
+    /// The shape that emits, and whether both of its sides do.
+    pub fn surface(&self) -> Option<(ShapeId, bool)> {
+        match &self.kind {
+            Kind::Area(light) => Some((light.shape, light.two_sided)),
+            Kind::Luminaire(light) => light.surface(),
+            _ => None,
+        }
+    }
+
+    /// What [`power`](Self::power) is multiplied with towards a direction away from the light, at a place where it emits; all
+    /// lights but luminaires have it in their power.
+    pub fn factor(&self, away: Direction) -> f64 {
+        match &self.kind {
+            Kind::Luminaire(light) => light.factor(away),
+            _ => 1.0,
+        }
+    }
+
+    /// Intensity, irradiance or radiance of the lanes, by kind, in SI units; of a luminaire per unit of its table.
     pub fn power(&self) -> [f64; MAX_LANES] {
         match &self.kind {
             Kind::Point(light) => light.intensity.map(Intensity::to_watts_per_steradian),
@@ -113,19 +136,20 @@ impl Light {
             Kind::Area(light) => light
                 .radiance
                 .map(Radiance::to_watts_per_square_metre_steradian),
+            Kind::Luminaire(light) => light.unit.map(Intensity::to_watts_per_steradian),
         }
     }
 
     /// A sample as seen from `point` on a surface of this `normal`; `None` when the light gives nothing there.
     ///
-    /// `form` finds the geometry of an area light. A constant environment is not sampled here: a surface's own
+    /// `form` finds the geometry of a light that is a shape. A constant environment is not sampled here: a surface's own
     /// directions sample it as well as any.
     pub fn sample<'a>(
         &self,
         point: Point,
         normal: Direction,
         u: [f64; 2],
-        form: impl Fn(&AreaLight) -> &'a Form,
+        form: impl Fn(ShapeId) -> &'a Form,
     ) -> Option<LightSample> {
         let incident = match &self.kind {
             Kind::Point(light) => light.incident(point),
@@ -140,7 +164,8 @@ impl Light {
                 density: Density::Delta,
             }),
             Kind::Environment { .. } => None,
-            Kind::Area(light) => light.incident(form(light), point, u),
+            Kind::Area(light) => light.incident(form(light.shape), point, u),
+            Kind::Luminaire(light) => light.incident(point, u, form),
         }?;
         let cos_theta = incident.direction.dot(normal).max(0.0);
         Some(LightSample {

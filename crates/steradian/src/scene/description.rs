@@ -10,6 +10,7 @@ pub use super::appearance::{
 };
 pub use crate::brdf::{Shadowing, Slopes};
 use crate::geometry::{Point, Transform, Vector};
+use crate::light::{self, FarField};
 pub use crate::material::{
     Bitmap, Interpolation, Media, Picture, PrincipledRecipe, RadianceKind, Recipe, Roughness,
     Scalar, Texels, Wrap,
@@ -370,6 +371,31 @@ pub enum LightKind {
         /// The radiance.
         radiance: Amount<Radiance, Luminance>,
     },
+    /// The intensity of a table, from a point or from an opening.
+    Luminaire(Box<LuminaireDescription>),
+}
+
+/// A luminaire: its table, where it is, how it is turned, and how much of its light there is.
+#[derive(Clone, Debug)]
+pub struct LuminaireDescription {
+    /// The middle of its opening.
+    pub position: Point,
+    /// The way its light goes: γ = 0 (any length).
+    pub aim: Vector,
+    /// Towards its half plane C0, as far as this is across the aim (any length).
+    pub c0: Vector,
+    /// The table.
+    pub far_field: Arc<FarField>,
+    /// What a 1 of the table stands for.
+    pub unit: Amount<Intensity, LuminousIntensity>,
+    /// Where light leaves it.
+    pub opening: light::Opening,
+    /// Its flux before dimming and maintenance, to which the table is scaled; `None` is the flux of the table.
+    pub flux: Option<Amount<Flux, LuminousFlux>>,
+    /// Share of its flux that it gives, 0 to 1.
+    pub dimming: f64,
+    /// Share of this flux that is left as it ages, above 0 and up to 1.
+    pub maintenance_factor: f64,
 }
 
 /// Intensity or total flux of a light without extent.

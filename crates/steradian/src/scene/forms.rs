@@ -34,7 +34,7 @@ impl Forms {
             .collect()
     }
 
-    fn part(&mut self, sides: [MaterialId; 2]) -> PartId {
+    pub fn part(&mut self, sides: [MaterialId; 2]) -> PartId {
         self.parts.push(PartProperties {
             front: sides[0],
             back: sides[1],

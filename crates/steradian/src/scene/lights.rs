@@ -2,10 +2,11 @@
 
 use super::curves::Curves;
 use super::description::{
-    EmissionAmount, EmissionDescription, LaneValues, LightDescription, LightKind, PointPower,
-    ShapeDescription, SpotBeam,
+    EmissionAmount, EmissionDescription, LaneValues, LightDescription, LightKind,
+    LuminaireDescription, PointPower, ShapeDescription, SpotBeam,
 };
 use super::forms::{Forms, copies};
+use super::luminaires::{self, Mounting};
 use super::{Fault, Part, Problem};
 use crate::geometry::{Direction, Point, Vector};
 use crate::light::{AreaLight, Beam, Kind, Light, LightId, PointLight, SpotLight};
@@ -94,7 +95,12 @@ impl<'a> Builder<'a> {
     }
 
     /// Lights without a shape.
-    pub fn add_lights(&mut self, lights: &[LightDescription], problems: &mut Vec<Problem>) {
+    pub fn add_lights(
+        &mut self,
+        lights: &[LightDescription],
+        mut mounting: Mounting<'_>,
+        problems: &mut Vec<Problem>,
+    ) {
         for (index, light) in lights.iter().enumerate() {
             let part = Part::Light(index);
             if light.repeat.is_some() && light.kind.is_infinitely_far() {
@@ -103,7 +109,7 @@ impl<'a> Builder<'a> {
                 continue;
             }
             let steps = copies(light.repeat.as_ref(), part, problems);
-            if let Err((key, message)) = self.add_copies(light, index, &steps) {
+            if let Err((key, message)) = self.add_copies(light, index, &steps, &mut mounting) {
                 problems.push(Problem::at(part, key, message));
             }
         }
@@ -114,6 +120,7 @@ impl<'a> Builder<'a> {
         light: &LightDescription,
         index: usize,
         steps: &[Vector],
+        mounting: &mut Mounting<'_>,
     ) -> Result<(), Fault> {
         let own = light.name.clone();
         let name = own.unwrap_or_else(|| format!("light {index}"));
@@ -121,11 +128,12 @@ impl<'a> Builder<'a> {
         let spectrum = self.curves.number(power.curve);
         let group = self.group(light.group.as_deref(), light.schedule.as_ref());
         for (copy, step) in steps.iter().enumerate() {
-            let kind = kind(light, *step, power.lanes)?;
             let name = match light.repeat {
                 Some(_) => format!("{name}[{copy}]"),
                 None => name.clone(),
             };
+            let known = (LightId(self.lights.len() as u32), &name[..]);
+            let kind = kind(&light.kind, *step, power.lanes, (mounting, known))?;
             self.push(name, group, spectrum, kind);
         }
         Ok(())
@@ -227,7 +235,31 @@ impl<'a> Builder<'a> {
             LightKind::Environment { radiance } => self
                 .amount(*radiance, shape)
                 .map_err(|message| ("radiance", message)),
+            LightKind::Luminaire(luminaire) => self.luminaire(luminaire, shape),
         }
+    }
+
+    /// What a 1 of a luminaire's table is in W/sr, with all factors.
+    fn luminaire(
+        &mut self,
+        luminaire: &LuminaireDescription,
+        shape: Option<&LaneValues>,
+    ) -> Result<LaneCurve, Fault> {
+        luminaires::check(luminaire)?;
+        let (lanes, share) = match luminaire.flux {
+            Some(flux) => {
+                let flux = self
+                    .amount(flux, shape)
+                    .map_err(|message| ("flux", message));
+                (flux?, 1.0 / luminaire.far_field.flux())
+            }
+            None => {
+                let unit = self.amount(luminaire.unit, shape);
+                (unit.map_err(|message| ("file", message))?, 1.0)
+            }
+        };
+        let factor = share * luminaire.dimming * luminaire.maintenance_factor;
+        Ok(lanes.map(|lane| lane * factor))
     }
 
     fn intensity(
@@ -250,9 +282,14 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The light of a description, moved by `step`, with its power in SI units.
-fn kind(light: &LightDescription, step: Vector, power: [f64; MAX_LANES]) -> Result<Kind, Fault> {
-    Ok(match &light.kind {
+/// A light, moved by `step`, with its power in SI units.
+fn kind(
+    light: &LightKind,
+    step: Vector,
+    power: [f64; MAX_LANES],
+    (mounting, known): (&mut Mounting<'_>, (LightId, &str)),
+) -> Result<Kind, Fault> {
+    Ok(match light {
         LightKind::Point { position, .. } => Kind::Point(PointLight {
             position: position_of(*position + step)?,
             intensity: power.map(Intensity::from_watts_per_steradian),
@@ -275,6 +312,9 @@ fn kind(light: &LightDescription, step: Vector, power: [f64; MAX_LANES]) -> Resu
         LightKind::Environment { .. } => Kind::Environment {
             radiance: power.map(Radiance::from_watts_per_square_metre_steradian),
         },
+        LightKind::Luminaire(luminaire) => Kind::Luminaire(luminaires::luminaire(
+            luminaire, step, power, mounting, known,
+        )?),
     })
 }
 
@@ -284,7 +324,7 @@ impl LightKind {
     }
 }
 
-fn position_of(position: Point) -> Result<Point, Fault> {
+pub(super) fn position_of(position: Point) -> Result<Point, Fault> {
     let message = || {
         format!(
             "a light's position is finite, not {:?}",

@@ -10,6 +10,7 @@ mod forms;
 mod geometry;
 mod lights;
 mod lone_material;
+mod luminaires;
 mod materials;
 mod mixtures;
 mod problem;
@@ -107,10 +108,11 @@ impl Scene {
         let efficacy = efficacy(description, problems);
         let materials = materials::prepare(&description.materials, &lanes, &mut curves, problems);
         let mut forms = forms::prepare(&description.shapes, &materials, problems);
-        let placed = std::mem::take(&mut forms.placed);
+        let mut placed = std::mem::take(&mut forms.placed);
         let mut lights = lights::Builder::new(&lanes, efficacy, &mut curves);
         lights.add_emission(&description.shapes, &mut forms, &placed, problems);
-        lights.add_lights(&description.lights, problems);
+        let mounting = luminaires::Mounting::new(&mut forms, &mut placed, &description.lights);
+        lights.add_lights(&description.lights, mounting, problems);
         let surfaces = Surfaces::new(placed, anchor(description))
             .map_err(|error| problems.push(Problem::of(Part::Scene, error.to_string())))
             .ok()?;

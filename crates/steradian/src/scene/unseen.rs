@@ -120,6 +120,10 @@ fn place_of(scene: &Scene, light: &Light) -> Option<Hull> {
         LightKind::Spot(spot) => Some(vec![spot.position]),
         LightKind::Directional { .. } | LightKind::Environment { .. } => None,
         LightKind::Area(area) => Some(corners(&scene.surfaces().shape(area.shape).form)),
+        LightKind::Luminaire(luminaire) => Some(match luminaire.surface() {
+            Some((shape, _)) => corners(&scene.surfaces().shape(shape).form),
+            None => vec![luminaire.position],
+        }),
     }
 }
 

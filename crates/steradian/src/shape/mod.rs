@@ -30,4 +30,5 @@ pub use mesh::{Attributes, TriangleMesh};
 pub use parallelogram::Parallelogram;
 pub use solid::Solid;
 pub use sphere::{Sphere, SpherePort};
+pub(crate) use surfaces::clearance_in;
 pub use surfaces::{PartId, Placed, QuadricRecord, ShapeId, Surfaces, TriangleRecord};

@@ -188,10 +188,7 @@ impl Surfaces {
 
     /// A distance in metres that is small in the scene, yet well above the rounding of its coordinates.
     pub fn clearance(&self) -> f64 {
-        CLEARANCE
-            * self
-                .bounds
-                .map_or(1.0, |bounds| bounds.diagonal().to_metres())
+        clearance_in(self.bounds)
     }
 
     /// The same for a point that may lie far off the finite shapes, on a plane.
@@ -231,6 +228,12 @@ impl Surfaces {
     pub fn occluded(&self, rays: &RayBatch, out: &mut Vec<bool>, set: InstructionSet) {
         self.accelerator.occluded(rays, out, set);
     }
+}
+
+/// [`Surfaces::clearance`] of shapes within these bounds.
+pub(crate) fn clearance_in(bounds: Option<Bounds>) -> f64 {
+    let diagonal = bounds.map_or(1.0, |bounds| bounds.diagonal().to_metres());
+    CLEARANCE * diagonal
 }
 
 fn bounds_of(shapes: &[Placed]) -> Option<Bounds> {

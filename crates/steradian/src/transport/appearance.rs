@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use glam::Vec3;
+
 use super::interaction::Hit;
 use super::tables::{Emitter, EmitterShape, Lanes4, Model, NO_TINT, Side, Tables, Tinted};
 use super::towards::triangle_of;
@@ -28,6 +30,23 @@ impl Tables<'_> {
             return self.colors.hue(&tint.hue, wavelengths);
         }
         self.colors.tint(tint, &site(), wavelengths)
+    }
+
+    /// What the power of a directed emitter is multiplied with towards a direction away from it.
+    #[inline(never)]
+    pub fn factor(&self, emitter: &Emitter, away: Vec3) -> f32 {
+        let light = &self.scene.lights()[emitter.light];
+        let away = Vector::from(away.to_array().map(f64::from));
+        Direction::new(away).map_or(0.0, |away| light.factor(away)) as f32
+    }
+
+    /// The same of a side that emits, towards a viewer.
+    #[inline(always)]
+    pub fn factor_of(&self, side: &Side, viewer: [f32; 3]) -> f32 {
+        match self.emitters.get(side.emitter as usize) {
+            Some(emitter) if emitter.is_directed => self.factor(emitter, Vec3::from_array(viewer)),
+            _ => 1.0,
+        }
     }
 
     /// The part of the light that a side stops; `None` for all of it.

@@ -8,7 +8,7 @@ use super::shaft::View;
 use super::tables::Tables;
 use super::transmittance::Transmittance;
 use crate::geometry::{Direction, Point};
-use crate::light::{Kind, Light};
+use crate::light::{Kind, Light, LightSample, LuminaireLight, Outlet};
 use crate::material::Hue;
 use crate::scene::Scene;
 use crate::sensor::FluxOf;
@@ -46,7 +46,7 @@ pub(super) fn irradiance(
         let start =
             point + facing.map_or(crate::geometry::Vector::ZERO, |normal| normal * clearance);
         let (span, reach) = match sample.distance.is_finite() {
-            true => (point + sample.direction * sample.distance - start, 1.0),
+            true => (end(&light.kind, point, &sample) - start, 1.0),
             false => (sample.direction.to_vector(), f32::INFINITY),
         };
         rays.push(
@@ -151,7 +151,19 @@ fn towards(kind: &Kind, point: Point) -> Option<Direction> {
         Kind::Point(light) => Direction::new(light.position - point).ok(),
         Kind::Spot(light) => Direction::new(light.position - point).ok(),
         Kind::Directional { direction, .. } => Some(-*direction),
+        Kind::Luminaire(light) => Direction::new(light.position - point).ok(),
         Kind::Environment { .. } | Kind::Area(_) => None,
+    }
+}
+
+/// Where the shadow ray to a light at a distance ends.
+fn end(kind: &Kind, point: Point, sample: &LightSample) -> Point {
+    match kind {
+        Kind::Luminaire(LuminaireLight {
+            outlet: Outlet::Point { end },
+            ..
+        }) => *end,
+        _ => point + sample.direction * sample.distance,
     }
 }
 
@@ -166,10 +178,16 @@ pub(super) fn environment(scene: &Scene, columns: &mut [f64]) {
     }
 }
 
-/// Adds the radiance that a side emits, unless it varies over the surface.
-pub(super) fn emission(scene: &Scene, side: u32, columns: &mut [f64]) {
+/// Adds the radiance that a side emits towards a direction, unless it varies over the surface.
+pub(super) fn emission(scene: &Scene, side: u32, away: Direction, columns: &mut [f64]) {
     let (part, front) = (scene.parts()[side as usize / 2], side.is_multiple_of(2));
-    add_emission(scene, part.light, front, 1.0, columns);
+    add_emission(
+        scene,
+        part.light,
+        front,
+        |light| light.factor(away),
+        columns,
+    );
 }
 
 /// Adds the flux that a shape emits evenly from one side, as far as it counts: all of what leaves, less in a net.
@@ -193,7 +211,7 @@ pub(super) fn emitted_flux(
         scene,
         light,
         front,
-        sign * std::f64::consts::PI * placed.form.area(),
+        |_| sign * std::f64::consts::PI * placed.form.area(),
         columns,
     );
 }
@@ -202,17 +220,19 @@ fn add_emission(
     scene: &Scene,
     light: Option<crate::light::LightId>,
     front: bool,
-    factor: f64,
+    factor: impl Fn(&Light) -> f64,
     columns: &mut [f64],
 ) {
     let count = scene.lanes().count();
     let Some(light) = light.map(|id| &scene.lights()[id.0 as usize]) else {
         return;
     };
-    if let Kind::Area(area) = &light.kind
-        && (front || area.two_sided)
-        && area.textures.is_empty()
+    let varies = matches!(&light.kind, Kind::Area(area) if !area.textures.is_empty());
+    if let Some((_, two_sided)) = light.surface()
+        && (front || two_sided)
+        && !varies
     {
+        let factor = factor(light);
         let column = &mut columns[light.group as usize * count..][..count];
         column
             .iter_mut()

@@ -21,7 +21,7 @@ use super::scattering::Encounter;
 use super::shaft::View;
 use super::tables::{Model, Side, Tables};
 use crate::geometry::{Direction, Point};
-use crate::light::{self, Light};
+use crate::light::Light;
 use crate::scene::Scene;
 use crate::sensor::{FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
 use crate::shape::Form;
@@ -125,10 +125,7 @@ impl<'t, 'a> Context<'t, 'a> {
     /// unless light goes through it.
     fn reflected(&self, light: &Light) -> Vec<bool> {
         let surfaces = self.scene.surfaces();
-        let own = match &light.kind {
-            light::Kind::Area(area) => Some(surfaces.shape(area.shape)),
-            _ => None,
-        };
+        let own = light.surface().map(|(shape, _)| surfaces.shape(shape));
         let own = own.filter(|placed| is_convex(&placed.form));
         let is_own = |part: usize| {
             own.is_some_and(|placed| placed.parts.iter().any(|id| id.0 as usize == part))
@@ -268,7 +265,7 @@ impl<'t, 'a> Context<'t, 'a> {
         );
         let ray = |(index, (origin, direction)): (usize, &(Point, Direction))| {
             let mut exact = vec![0.0; self.columns()];
-            let meter = self.first_surface(&batch, &hits, index, &mut exact);
+            let meter = self.first_surface((&batch, *direction), &hits, index, &mut exact);
             Prepared {
                 index,
                 position: Some(*origin),
@@ -285,7 +282,7 @@ impl<'t, 'a> Context<'t, 'a> {
 
     fn first_surface(
         &self,
-        rays: &RayBatch,
+        (rays, looks): (&RayBatch, Direction),
         hits: &HitBatch,
         index: usize,
         exact: &mut [f64],
@@ -303,7 +300,7 @@ impl<'t, 'a> Context<'t, 'a> {
                 direction: hit.viewer.map(|axis| -axis),
             });
         }
-        exact::emission(self.scene, hit.side, exact);
+        exact::emission(self.scene, hit.side, -looks, exact);
         let reflects = side.model != Model::Black && self.max_depth >= 2;
         reflects.then(|| Meter::Surface(Encounter::seen(&hit, self.tables.site(&hit))))
     }

@@ -98,8 +98,10 @@ impl NextEvent<'_> {
                 area,
             },
             false,
-        ) = (&emitter.shape, tables.has_textures(&emitter.power))
-        {
+        ) = (
+            &emitter.shape,
+            emitter.is_directed || tables.has_textures(&emitter.power),
+        ) {
             shadows.emitter.fill(number as u32);
             let (origin, edges, normal) = (*origin, *edges, *normal);
             let (area, two_sided, probability) = (
@@ -264,7 +266,8 @@ impl NextEvent<'_> {
                 }
                 EmitterShape::Point { .. }
                 | EmitterShape::Spot { .. }
-                | EmitterShape::Directional { .. } => 0.0,
+                | EmitterShape::Directional { .. }
+                | EmitterShape::Luminaire { .. } => 0.0,
             }
     }
 }

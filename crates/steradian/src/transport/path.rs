@@ -139,7 +139,7 @@ impl Tracer<'_> {
                     workspace.flights.pdf[i],
                     candidates,
                     workspace.known[slot as usize],
-                );
+                ) * tables.factor_of(side, hit.viewer);
                 let radiance = tables.lanes_at(&side.radiance, wavelengths, || tables.site(&hit));
                 self.add(&mut workspace.gathered, side.group, slot, |lane| {
                     workspace.flights.throughput[lane][i] * radiance[lane] * weight

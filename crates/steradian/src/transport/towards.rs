@@ -30,7 +30,22 @@ pub(super) fn cone(axis: Vec3, radius: f32, whole: bool) -> Option<f32> {
     (whole && sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
 }
 
+/// A direction towards an emitter, with what it emits there.
 pub(super) fn towards(
+    tables: &Tables,
+    emitter: &Emitter,
+    place: &Place,
+    u: [f32; 2],
+) -> Option<Towards> {
+    let mut towards = evenly_towards(tables, emitter, place, u)?;
+    if emitter.is_directed {
+        towards.per_power *= tables.factor(emitter, -towards.direction);
+    }
+    (towards.per_power > 0.0 && towards.per_power.is_finite()).then_some(towards)
+}
+
+/// The same of an emitter whose power is the same in all directions.
+fn evenly_towards(
     tables: &Tables,
     emitter: &Emitter,
     place: &Place,
@@ -94,6 +109,13 @@ pub(super) fn towards(
             let axis = Vec3::from_array(*axis);
             towards_point(vertex, Vec3::from_array(*position), |direction| {
                 beam.falloff(f64::from(-direction.dot(axis))) as f32
+            })
+        }
+        EmitterShape::Luminaire { position, end } => {
+            let towards = towards_point(vertex, Vec3::from_array(*position), |_| 1.0)?;
+            Some(Towards {
+                end: Vec3::from_array(*end),
+                ..towards
             })
         }
         EmitterShape::Directional { towards } => {

@@ -16,6 +16,9 @@ pub const FALLOFF_NAMES: &[&str] = &["uniform"];
 pub const FALLOFF_VALUE: Value =
     Value::Either(&[Value::Choice(FALLOFF_NAMES), Value::Table(&FALLOFF)]);
 
+const EMIT_NAMES: &[&str] = &["opening", "point"];
+const FILE_UNIT_NAMES: &[&str] = &["cd", "mW/sr"];
+
 const POSITION: Key = Key::required("position", Value::Point, "Where it is");
 const FLUX_KEY: Key = Key::one_of(
     "amount",
@@ -93,7 +96,57 @@ pub const LIGHTS: Family = Family {
                 Key::not_yet("file"),
             ],
         ),
-        Kind::not_yet("luminaire"),
+        Kind::new(
+            "luminaire",
+            "A luminaire as an IES (LM-63) or EULUMDAT file tells it",
+            &[
+                Key::required("file", Value::File, "The file (.ies or .ldt)"),
+                Key::required(
+                    "position",
+                    Value::Point,
+                    "The middle of its luminous opening",
+                ),
+                Key::optional(
+                    "aim",
+                    Value::Direction,
+                    "The way its light goes: the direction γ = 0; straight down unless given",
+                ),
+                Key::default(
+                    "c0",
+                    Value::Direction,
+                    "[1, 0, 0]",
+                    "Towards its half plane C0, as far as this is across the aim",
+                ),
+                Key::optional(
+                    "emit",
+                    Value::Choice(EMIT_NAMES),
+                    "Where its light leaves: the luminous opening of the file, which can be seen, or a point; the opening unless the file has none",
+                ),
+                Key::optional(
+                    "flux",
+                    Amount::<Flux, LuminousFlux>::VALUE,
+                    "Flux of the luminaire, lamps and losses included, to which the file's intensities are scaled; what the file says unless given",
+                ),
+                Key::default(
+                    "dimming",
+                    Value::Number,
+                    "1",
+                    "Share of its flux that it gives, 0 to 1",
+                ),
+                Key::default(
+                    "maintenance_factor",
+                    Value::Number,
+                    "1",
+                    "Share of its flux that is left as it ages, above 0 and up to 1",
+                ),
+                Key::optional(
+                    "file_unit",
+                    Value::Choice(FILE_UNIT_NAMES),
+                    "Unit of the file's intensities; what the file says unless given, and cd where it does not",
+                ),
+                REPEAT_KEY,
+            ],
+        ),
         Kind::not_yet("sun"),
         Kind::not_yet("sky"),
     ],

@@ -133,7 +133,7 @@ fn batched_samples_are_those_of_the_lights() {
     let scene = every_light();
     let tables = Tables::new(&scene);
     let order = tables.emitters.iter().zip([0, 1, 2, 3, 4, 5, 6, 7]);
-    let form = |light: &crate::light::AreaLight| &scene.surfaces().shape(light.shape).form;
+    let form = |shape| &scene.surfaces().shape(shape).form;
     let mut compared = 0;
     for (emitter, number) in order {
         let light = &scene.lights()[number];

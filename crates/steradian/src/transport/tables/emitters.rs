@@ -3,7 +3,7 @@
 use super::outlines::outline;
 use super::{Emitter, EmitterShape, NO_EMITTER, Tinted};
 use crate::geometry::{Frame, Point};
-use crate::light::{Kind, Light};
+use crate::light::{Kind, Light, Outlet};
 use crate::material::Tint;
 use crate::scene::Scene;
 use crate::shape::{Form, ShapeId, Sphere, SpherePort};
@@ -36,9 +36,10 @@ fn emitter(scene: &Scene, number: usize, power: Tinted) -> Option<Emitter> {
         outline: area.and_then(|area| outline(scene, area)),
         light: number,
         power,
-        surface: area.map(|area| area.shape),
+        surface: light.surface().map(|(shape, _)| shape),
         group: light.group,
-        two_sided: area.is_some_and(|area| area.two_sided),
+        two_sided: light.surface().is_some_and(|(_, two_sided)| two_sided),
+        is_directed: matches!(light.kind, Kind::Luminaire(_)),
         probability: 0.0,
     })
 }
@@ -60,6 +61,13 @@ fn emitter_shape(scene: &Scene, light: &Light) -> Option<EmitterShape> {
         }),
         Kind::Environment { .. } => None,
         Kind::Area(light) => area_shape(scene, light.shape),
+        Kind::Luminaire(light) => match light.outlet {
+            Outlet::Point { end } => Some(EmitterShape::Luminaire {
+                position: kernel(light.position),
+                end: kernel(end),
+            }),
+            Outlet::Surface { shape, .. } => area_shape(scene, shape),
+        },
     }
 }
 
@@ -133,7 +141,7 @@ pub(super) fn choose_by_power(scene: &Scene, emitters: &mut [Emitter], tints: &[
             .zip(&emitter.power.lanes)
             .map(|(w, x)| w * f64::from(*x))
             .sum();
-        lanes * emitter.shape.power_factor(extent) * emitter.spectral_power(scene, tints)
+        lanes * emitter.power_factor(scene, extent) * emitter.spectral_power(scene, tints)
     };
     let powers: Vec<f64> = emitters.iter().map(power).collect();
     let total: f64 = powers.iter().sum();
@@ -154,6 +162,14 @@ pub(super) fn choose_by_power(scene: &Scene, emitters: &mut [Emitter], tints: &[
 }
 
 impl Emitter {
+    /// Flux per unit of power.
+    fn power_factor(&self, scene: &Scene, extent: f64) -> f64 {
+        match &scene.lights()[self.light].kind {
+            Kind::Luminaire(light) => light.far_field.flux(),
+            _ => self.shape.power_factor(extent),
+        }
+    }
+
     /// Power over all wavelengths of the run, of lanes of 1.
     fn spectral_power(&self, scene: &Scene, tints: &[Tint]) -> f64 {
         let Some(grid) = scene.lanes().grid() else {
@@ -175,7 +191,7 @@ impl EmitterShape {
             | Self::Triangles { area, .. }
             | Self::Disc { area, .. } => PI * f64::from(*area),
             Self::Sphere { radius, .. } => 4.0 * PI * PI * f64::from(radius * radius),
-            Self::Point { .. } => 4.0 * PI,
+            Self::Point { .. } | Self::Luminaire { .. } => 4.0 * PI,
             Self::Spot { beam, .. } => beam.solid_angle().to_steradians(),
             Self::Directional { .. } => 0.25 * PI * extent * extent,
         }

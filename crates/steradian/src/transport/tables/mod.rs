@@ -115,6 +115,8 @@ pub(super) struct Emitter {
     pub surface: Option<ShapeId>,
     pub group: u32,
     pub two_sided: bool,
+    /// Its power has a [factor](crate::light::Light::factor) by direction.
+    pub is_directed: bool,
     /// Probability of this emitter when one is chosen by power.
     pub probability: f32,
 }
@@ -160,13 +162,22 @@ pub(super) enum EmitterShape {
     Directional {
         towards: [f32; 3],
     },
+    /// A luminaire without extent.
+    Luminaire {
+        position: [f32; 3],
+        /// Where rays to it end.
+        end: [f32; 3],
+    },
 }
 
 impl EmitterShape {
     pub fn is_delta(&self) -> bool {
         matches!(
             self,
-            Self::Point { .. } | Self::Spot { .. } | Self::Directional { .. }
+            Self::Point { .. }
+                | Self::Spot { .. }
+                | Self::Directional { .. }
+                | Self::Luminaire { .. }
         )
     }
 }

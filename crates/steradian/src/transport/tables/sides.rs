@@ -94,8 +94,8 @@ pub(super) fn emitting(
     front: bool,
 ) -> Side {
     let light = &scene.lights()[id.0 as usize];
-    match &light.kind {
-        Kind::Area(area) if front || area.two_sided => Side {
+    match light.surface() {
+        Some((_, two_sided)) if front || two_sided => Side {
             radiance,
             emitter,
             group: light.group,

@@ -8,7 +8,7 @@ use super::header::{Edition, Header};
 use super::warning;
 use crate::diagnostic::Diagnostic;
 use crate::import::photometry::numbers::Numbers;
-use crate::import::photometry::opening::Opening;
+use crate::import::photometry::opening::{Opening, from_codes};
 use crate::import::photometry::source::Source;
 use crate::import::photometry::symmetry;
 
@@ -187,7 +187,7 @@ fn opening(
     let length = source.number("the length of the opening")?.1;
     let (last, height) = source.number("the height of the opening")?;
     let codes = [width, length, height];
-    Ok(Opening::from_codes(codes, metres).unwrap_or_else(|| {
+    Ok(from_codes(codes, metres).unwrap_or_else(|| {
         let message =
             "the signs of these dimensions stand for no shape: light is taken to come from a point";
         warnings.push(warning(source.error(first.start..last.end, message)));
