@@ -3,8 +3,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::{
-    area, brdf, direction, energy, form_factor, help, inspect, learn, measure, merge, render,
-    solid_angle, verify,
+    area, brdf, direction, energy, form_factor, help, inspect, learn, measure, merge, plot, render,
+    report, solid_angle, verify,
 };
 
 /// Light in SI units: radiance, irradiance and flux in a scene, each number with its unit and an error bar.
@@ -37,6 +37,10 @@ pub enum Command {
     Render(render::Arguments),
     /// Read the sensors of a scene: irradiance, flux, radiance, with error bars
     Measure(measure::Arguments),
+    /// Draw what a run found: plans with numbers, isolux lines with their error bands, shares of light groups
+    Plot(plot::Arguments),
+    /// Write what a run found as one HTML page: statistics, plans, isolux lines, shares of light groups, all readings
+    Report(report::Arguments),
     /// List what a scene or mesh holds: areas, reflectances, fluxes, sensors; and what is wrong with it: leaks, doubled faces …
     Inspect(inspect::Arguments),
     /// Check this program on scenes with closed-form answers

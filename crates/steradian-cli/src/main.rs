@@ -17,9 +17,11 @@ mod merge;
 mod output;
 mod part;
 mod picture;
+mod plot;
 mod points;
 mod progress;
 mod render;
+mod report;
 mod result;
 mod solid_angle;
 mod status;
@@ -45,6 +47,8 @@ fn run(command: Command) -> Result<Outcome, Failure> {
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Area(arguments) => area::run(&arguments),
         Command::FormFactor(arguments) => form_factor::run(&arguments),

@@ -12,6 +12,7 @@ mod inspect;
 mod instruments;
 mod interruption;
 mod pictures;
+mod plots;
 mod results;
 mod schedules;
 mod same_bytes;

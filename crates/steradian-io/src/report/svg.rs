@@ -292,8 +292,13 @@ fn number(value: f64) -> String {
     }
 }
 
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
+/// Words that cannot leave their element or attribute. Characters that XML does not know become `�`.
+pub(super) fn escaped(text: &str) -> String {
+    let is_unknown = |c: char| {
+        c.is_control() && !matches!(c, '\t' | '\n' | '\r') || matches!(c, '\u{fffe}' | '\u{ffff}')
+    };
+    text.replace(is_unknown, "\u{fffd}")
+        .replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")
@@ -321,9 +326,15 @@ mod tests {
     #[test]
     fn words_cannot_leave_their_element() {
         let mut drawing = Svg::new(10.0, 10.0);
-        drawing.text([0.0, 0.0], "</text><script>&", 5.0, Anchor::Start, "\"red");
+        drawing.text(
+            [0.0, 0.0],
+            "</text><script>&\0",
+            5.0,
+            Anchor::Start,
+            "\"red",
+        );
         let text = drawing.finish();
-        assert!(text.contains("&lt;/text&gt;&lt;script&gt;&amp;</text>"));
+        assert!(text.contains("&lt;/text&gt;&lt;script&gt;&amp;�</text>"));
         assert!(text.contains("fill=\"&quot;red\""));
     }
 

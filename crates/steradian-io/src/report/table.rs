@@ -114,7 +114,7 @@ fn exposures(readings: &[Reading], interval: Interval) -> Columns {
 }
 
 /// `503.2 ± 2.2 lx`, `100 W/m2 (exact)`: the unit stands before a remark.
-fn with_unit(value: &Estimate, unit: &str) -> String {
+pub(super) fn with_unit(value: &Estimate, unit: &str) -> String {
     let text = estimate(value);
     match text
         .split_once(" (")

@@ -55,6 +55,7 @@ fn map(rows: &[Row], report: &FactorReport) -> HeatMap {
             .into_iter()
             .map(|row| row.into_iter().map(logarithm).collect())
             .collect(),
+        with_numbers: false,
     }
 }
 

@@ -4,6 +4,7 @@ use super::scale::Scale;
 use crate::report::svg::{Anchor, Stroke, Svg};
 
 pub const INK: &str = "#222222";
+pub const PAPER: &str = "#ffffff";
 pub const TITLE_SIZE: f64 = 17.0;
 pub const LABEL_SIZE: f64 = 14.0;
 pub const TICK_SIZE: f64 = 12.0;

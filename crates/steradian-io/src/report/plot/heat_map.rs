@@ -2,17 +2,17 @@
 
 use super::PlotError;
 use super::axis::Axis;
+use super::colour_bar::{self, BAR_WIDTH, colour, fill};
 use super::frame::{Frame, INK, TICK_SIZE, width_of};
 use super::heat_pixels;
 use super::scale::Scale;
-use crate::report::svg::{Anchor, Stroke, Svg};
+use crate::report::numbers::significant;
+use crate::report::svg::{Anchor, Svg};
 
 /// Most rows or columns whose names are written; of more none is, as they would overlap.
 const MOST_NAMES: usize = 40;
 const SIDE: f64 = 480.0;
 const TOP: f64 = 48.0;
-const BAR_WIDTH: f64 = 20.0;
-const BAR_STEPS: u32 = 64;
 
 /// A matrix with a colour for each number, the first row on top, beside a legend that states the unit. Colours are those
 /// of viridis, over round ends that hold 0 and all numbers.
@@ -25,6 +25,7 @@ const BAR_STEPS: u32 = 64;
 ///     rows: vec!["floor".to_owned(), "ceiling".to_owned()],
 ///     columns: vec!["floor".to_owned(), "ceiling".to_owned()],
 ///     values: vec![vec![0.0, 0.2], vec![0.2, 0.0]],
+///     with_numbers: true,
 /// };
 /// assert!(map.to_svg()?.contains("ceiling"));
 /// # Ok::<(), steradian_io::report::plot::PlotError>(())
@@ -41,6 +42,8 @@ pub struct HeatMap {
     pub columns: Vec<String>,
     /// The numbers, row by row.
     pub values: Vec<Vec<f64>>,
+    /// Whether the numbers are written where they fit.
+    pub with_numbers: bool,
 }
 
 impl HeatMap {
@@ -49,6 +52,14 @@ impl HeatMap {
     /// # Errors
     /// If there are no numbers, one is not finite, or rows, columns and names do not fit.
     pub fn to_svg(&self) -> Result<String, PlotError> {
+        Ok(self.drawing()?.finish())
+    }
+
+    /// The drawing, which as pixels has names and title too.
+    ///
+    /// # Errors
+    /// Those of [`to_svg`](Self::to_svg).
+    pub fn drawing(&self) -> Result<Svg, PlotError> {
         self.check()?;
         let scale = Scale::new(&Axis::new("", ""), self.extent());
         let frame = self.frame();
@@ -61,7 +72,7 @@ impl HeatMap {
         self.names(&mut sheet, &frame);
         frame.edges(&mut sheet);
         self.colour_bar(&mut sheet, &frame, &scale);
-        Ok(sheet.finish())
+        Ok(sheet)
     }
 
     /// The bytes of a PNG: cells and legend, without names and title.
@@ -140,7 +151,12 @@ impl HeatMap {
                     width,
                     height,
                 };
-                fill(sheet, cell, &colour(scale.position(*value)));
+                let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+                let outline = corners.map(|[x, y]| cell.place(x, y)).to_vec();
+                fill(sheet, outline, &colour(scale.position(*value)));
+                if self.with_numbers {
+                    number(sheet, &cell, scale.position(*value), *value);
+                }
             }
         }
     }
@@ -163,42 +179,18 @@ impl HeatMap {
             width: BAR_WIDTH,
             ..*frame
         };
-        for step in 0..BAR_STEPS {
-            let [low, high] = [step, step + 1].map(|step| f64::from(step) / f64::from(BAR_STEPS));
-            let top = bar.place(0.0, high)[1];
-            let height = bar.height / f64::from(BAR_STEPS);
-            fill(
-                sheet,
-                Frame { top, height, ..bar },
-                &colour((low + high) / 2.0),
-            );
-        }
-        bar.edges(sheet);
-        for (place, label) in scale.ticks() {
-            let [x, y] = bar.place(1.0, place);
-            sheet.line([x, y], [x + 5.0, y], &Stroke::new(INK, 1.0));
-            sheet.text([x + 9.0, y + 4.0], &label, TICK_SIZE, Anchor::Start, INK);
-        }
-        sheet.text(
-            [bar.left, bar.top - 10.0],
-            &self.legend,
-            TICK_SIZE,
-            Anchor::Start,
-            INK,
-        );
+        colour_bar::draw(sheet, &bar, scale, &self.legend);
     }
 }
 
-/// Filled a quarter of a pixel beyond its edges, so that no seam shows.
-fn fill(sheet: &mut Svg, cell: Frame, colour: &str) {
-    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    let outline = corners.map(|[x, y]| cell.place(x, y)).to_vec();
-    sheet.area(&[outline], colour, 1.0, Some(&Stroke::new(colour, 0.5)));
-}
-
-fn colour(position: f64) -> String {
-    let colour = colorous::VIRIDIS.eval_continuous(position.clamp(0.0, 1.0));
-    format!("#{colour:x}")
+/// A number in its cell, if it fits.
+fn number(sheet: &mut Svg, cell: &Frame, position: f64, value: f64) {
+    let words = significant(value, 3);
+    if cell.height >= 1.5 * TICK_SIZE && cell.width >= width_of(&words, TICK_SIZE) + 4.0 {
+        let [x, y] = cell.place(0.5, 0.5);
+        let ink = colour_bar::ink(position);
+        sheet.text([x, y + 4.0], &words, TICK_SIZE, Anchor::Middle, ink);
+    }
 }
 
 fn written(names: &[String]) -> &[String] {
@@ -228,6 +220,7 @@ mod tests {
             rows: names('r'),
             columns: names('c'),
             values,
+            with_numbers: false,
         }
     }
 

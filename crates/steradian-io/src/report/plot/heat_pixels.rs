@@ -1,5 +1,6 @@
 //! A heat map as pixels: the matrix and its legend, without the names of rows and columns.
 
+use super::colour_bar::rgb as colour;
 use super::heat_map::HeatMap;
 use super::scale::Scale;
 use crate::report::glyphs;
@@ -64,11 +65,6 @@ fn bar(pixels: &mut Pixels, scale: &Scale, left: usize, height: usize) {
     }
 }
 
-fn colour(position: f64) -> [u8; 3] {
-    let colour = colorous::VIRIDIS.eval_continuous(position.clamp(0.0, 1.0));
-    [colour.r, colour.g, colour.b]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,6 +79,7 @@ mod tests {
             rows: names(2),
             columns: names(3),
             values: vec![vec![0.0, 0.0, 1.0], vec![0.5, 0.0, 0.0]],
+            with_numbers: false,
         };
         let scale = Scale::new(&Axis::new("", ""), [0.0, 1.0]);
         let pixels = draw(&map, &scale);

@@ -1,4 +1,4 @@
-//! Diagrams as SVG: lines over two axes, curves around a point, matrices and hemispheres in colour.
+//! Diagrams as SVG: lines over two axes, curves around a point, matrices and hemispheres in colour, maps at true scale.
 //!
 //! An axis states what it shows and in which unit. Numbers that no diagram can show (NaN, infinite, not positive on a
 //! logarithmic axis) are refused, not left out. Texts name fonts and carry none, so the files are small; the same
@@ -7,19 +7,29 @@
 //! The crate kuva 0.6 was tried and not taken: it would save the ticks in `scale.rs` and the legend, and its output differed between calls.
 
 mod axis;
+mod bars;
+mod colour_bar;
+mod contour;
 mod cut;
+mod field;
 mod frame;
 mod heat_map;
 mod heat_pixels;
 mod hemisphere_map;
+mod isolines;
 mod line_plot;
+mod plan;
 mod polar_plot;
 mod scale;
 
 pub use axis::Axis;
+pub use bars::{Bar, ShareBars};
+pub use field::{Field, Lattice};
 pub use heat_map::HeatMap;
 pub use hemisphere_map::{HemisphereMap, HemispherePanel};
+pub use isolines::Isolines;
 pub use line_plot::{LinePlot, Series};
+pub use plan::Plan;
 pub use polar_plot::{PolarCurve, PolarPlot, Zero};
 
 use super::error::ReportError;
@@ -60,6 +70,25 @@ pub enum PlotError {
         /// Its last end.
         to: f64,
     },
+    /// A map whose lists do not belong together.
+    #[error("a map of {count} places has {found} values, intervals or cells")]
+    Places {
+        /// Places of the map.
+        count: usize,
+        /// What there is of the others.
+        found: usize,
+    },
+    /// A part of a sum that is negative or not a number.
+    #[error("{place} has a part of {value}, which is no share of a sum")]
+    NoShare {
+        /// The sum.
+        place: String,
+        /// The part.
+        value: f64,
+    },
+    /// Lines of equal values need neighbours.
+    #[error("lines of equal values need a grid of at least 2 x 2 points")]
+    NoGrid,
     /// Rows of a matrix are of different length, or there are more or fewer labels than rows or columns.
     #[error("a matrix of {rows} x {columns} was expected, but {place} has {found}")]
     Shape {

@@ -87,6 +87,11 @@ impl Scale {
         (value - from) / (to - from)
     }
 
+    /// The numbers that have ticks.
+    pub fn tick_values(&self) -> &[f64] {
+        &self.ticks
+    }
+
     /// Places of the ticks with their labels.
     pub fn ticks(&self) -> impl Iterator<Item = (f64, String)> {
         self.ticks
@@ -120,7 +125,7 @@ fn apart([low, high]: [f64; 2]) -> [f64; 2] {
 }
 
 /// The least of 1, 2 and 5 · 10ⁿ that is at least `step`.
-fn round_step(step: f64) -> f64 {
+pub fn round_step(step: f64) -> f64 {
     let decade = libm::pow(10.0, libm::log10(step).floor());
     let factor = [1.0, 2.0, 5.0]
         .into_iter()

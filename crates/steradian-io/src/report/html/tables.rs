@@ -1,0 +1,198 @@
+//! Tables of a page.
+
+use steradian::measurement::Reading;
+
+use super::markup::Markup;
+use super::sensor::anchor;
+use crate::report::figure::Subject;
+use crate::report::numbers::{estimate, exact, significant};
+use crate::report::run::Run;
+use crate::report::table::with_unit;
+
+/// Longer tables of readings are folded.
+const MOST_ROWS: usize = 50;
+const NUMBER: [(&str, &str); 1] = [("class", "number")];
+
+/// A table with its caption and headings; columns from `numbers` on are flush right.
+fn table(
+    parent: &mut Markup,
+    caption: &str,
+    headings: &[String],
+    numbers: usize,
+    rows: impl FnOnce(&mut Markup),
+) {
+    parent.element("div", &[("class", "scroll")], |scroll| {
+        scroll.element("table", &[], |table| {
+            table.leaf("caption", caption);
+            table.element("thead", &[], |head| {
+                head.element("tr", &[], |row| {
+                    for (column, heading) in headings.iter().enumerate() {
+                        let class = if column < numbers { "" } else { "number" };
+                        let attributes = [("scope", "col"), ("class", class)];
+                        row.element("th", &attributes, |cell| cell.words(heading));
+                    }
+                });
+            });
+            table.element("tbody", &[], rows);
+        });
+    });
+}
+
+/// A row whose first cell is its heading.
+fn row(body: &mut Markup, heading: impl FnOnce(&mut Markup), cells: &[String], numbers: usize) {
+    body.element("tr", &[], |row| {
+        row.element("th", &[("scope", "row")], heading);
+        for (column, cell) in (1..).zip(cells) {
+            let attributes: &[_] = if column < numbers { &[] } else { &NUMBER };
+            row.element("td", attributes, |td| td.words(cell));
+        }
+    });
+}
+
+fn words(headings: &[&str]) -> Vec<String> {
+    headings
+        .iter()
+        .map(|heading| (*heading).to_owned())
+        .collect()
+}
+
+/// All sensors with links to their sections.
+pub(super) fn overview(main: &mut Markup, run: &Run<'_>, subjects: &[Subject]) {
+    main.leaf("h2", "Results");
+    let headings = words(&["sensor", "quantity", "points", "least", "greatest"]);
+    let caption = format!("All sensors; ± {}", half_widths(run));
+    table(main, &caption, &headings, 2, |body| {
+        for (number, subject) in subjects.iter().enumerate() {
+            let link = format!("#{}", anchor(number));
+            let heading = |cell: &mut Markup| {
+                cell.element("a", &[("href", &link)], |a| a.words(&subject.sensor));
+            };
+            let [least, greatest] = extremes(subject);
+            let of = |reading: &Reading| with_unit(&reading.estimate, &reading.unit);
+            let count = subject.readings.len().to_string();
+            let cells = [subject.quantity.clone(), count, of(least), of(greatest)];
+            row(body, heading, &cells, 2);
+        }
+    });
+}
+
+fn half_widths(run: &Run<'_>) -> String {
+    let percent = exact(100.0 * run.measurements.confidence);
+    format!("half-width of the {percent} % interval")
+}
+
+fn extremes(subject: &Subject) -> [&Reading; 2] {
+    let first = &subject.readings[0];
+    let value = |reading: &Reading| reading.estimate.value;
+    subject
+        .readings
+        .iter()
+        .fold([first, first], |[least, greatest], next| {
+            [
+                if value(next) < value(least) {
+                    next
+                } else {
+                    least
+                },
+                if value(next) > value(greatest) {
+                    next
+                } else {
+                    greatest
+                },
+            ]
+        })
+}
+
+/// What each light group gives, in the mean over the points.
+pub(super) fn groups(section: &mut Markup, run: &Run<'_>, subject: &Subject) {
+    let names = run.measurements.group_names();
+    if names.len() < 2 {
+        return;
+    }
+    section.leaf("h3", "Light groups");
+    let count = subject.readings.len();
+    let caption = match count {
+        1 => "What each light group gives".to_owned(),
+        _ => format!("What each light group gives, mean of {count} points"),
+    };
+    let value = format!("value ({})", subject.unit);
+    let headings = [words(&["group"]), vec![value, "share".to_owned()]].concat();
+    let mean = |part: &dyn Fn(&Reading) -> f64| {
+        subject.readings.iter().map(part).sum::<f64>() / count as f64
+    };
+    let whole = mean(&|reading| reading.estimate.value);
+    table(section, &caption, &headings, 1, |body| {
+        for (number, name) in names.iter().enumerate() {
+            let part = mean(&|reading| reading.groups[number].1.value);
+            let share = match whole == 0.0 {
+                true => "–".to_owned(),
+                false => format!("{} %", significant(100.0 * part / whole, 3)),
+            };
+            row(
+                body,
+                |cell| cell.words(name),
+                &[significant(part, 4), share],
+                1,
+            );
+        }
+        let cells = [significant(whole, 4), "100 %".to_owned()];
+        row(body, |cell| cell.words("sum"), &cells, 1);
+    });
+}
+
+/// Every reading, folded where there are many.
+pub(super) fn readings(section: &mut Markup, run: &Run<'_>, subject: &Subject) {
+    let count = subject.readings.len();
+    section.leaf("h3", "Readings");
+    if count <= MOST_ROWS {
+        return reading_table(section, run, subject);
+    }
+    section.element("details", &[], |details| {
+        details.leaf("summary", &format!("All {count} readings"));
+        reading_table(details, run, subject);
+    });
+}
+
+fn reading_table(parent: &mut Markup, run: &Run<'_>, subject: &Subject) {
+    let names = run.measurements.group_names();
+    let names: Vec<String> = match names.len() {
+        1 => Vec::new(),
+        _ => names.into_iter().cloned().collect(),
+    };
+    let value = format!("{} ({})", subject.quantity, subject.unit);
+    let headings = [words(&["point", "x, y, z (m)", "on"]), vec![value], names].concat();
+    let caption = format!("{}, ± {}", subject.unit, half_widths(run));
+    let has_groups = headings.len() > 4;
+    table(parent, &caption, &headings, 3, |body| {
+        for reading in &subject.readings {
+            let cells = reading_cells(reading, has_groups);
+            row(
+                body,
+                |cell| cell.words(&reading.index.to_string()),
+                &cells,
+                3,
+            );
+        }
+    });
+}
+
+fn reading_cells(reading: &Reading, has_groups: bool) -> Vec<String> {
+    let place = |position: [f64; 3]| position.map(|x| significant(x, 6)).join(", ");
+    let sits_on = reading.sits_on.as_ref();
+    let mark = if reading.estimate.converged {
+        ""
+    } else {
+        " (not converged)"
+    };
+    let groups = reading.groups.iter().filter(|_| has_groups);
+    let mut cells = vec![
+        reading.position.map_or_else(|| "surface".to_owned(), place),
+        sits_on.map_or_else(
+            || "–".to_owned(),
+            |on| format!("{} ({})", on.shape, on.side),
+        ),
+        format!("{}{mark}", estimate(&reading.estimate)),
+    ];
+    cells.extend(groups.map(|(_, part)| estimate(part)));
+    cells
+}
