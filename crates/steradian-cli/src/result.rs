@@ -25,7 +25,7 @@ pub enum Format {
 
 impl Format {
     /// The format that the ending of a file's name tells, else a table.
-    fn of(path: Option<&Path>) -> Self {
+    pub fn of(path: Option<&Path>) -> Self {
         match path
             .and_then(Path::extension)
             .and_then(|ending| ending.to_str())
@@ -48,13 +48,18 @@ pub struct Readings {
 }
 
 impl Readings {
-    /// Writes a report; not as asked when a tolerance was missed or light was left out.
-    pub fn write(&self, format: Option<Format>, file: Option<&Path>) -> Result<Outcome, Failure> {
-        let run = Run {
+    /// What reports take.
+    pub fn as_run(&self) -> Run<'_> {
+        Run {
             measurements: &self.measurements,
             scene_hash: &self.scene_hash,
             version: &self.version,
-        };
+        }
+    }
+
+    /// Writes a report; not as asked when a tolerance was missed or light was left out.
+    pub fn write(&self, format: Option<Format>, file: Option<&Path>) -> Result<Outcome, Failure> {
+        let run = self.as_run();
         let text = match format.unwrap_or_else(|| Format::of(file)) {
             Format::Table => table::encode(&run),
             Format::Json => json::encode(&run)?,

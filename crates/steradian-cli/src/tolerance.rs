@@ -38,7 +38,7 @@ pub fn parse(text: &str, scene: &Scene, chosen: Option<&[String]>) -> Result<f64
 }
 
 /// The units of the quantity whose SI unit this is.
-fn table(unit: &str) -> Option<&'static UnitTable> {
+pub fn table(unit: &str) -> Option<&'static UnitTable> {
     const TABLES: [&UnitTable; 8] = [
         Irradiance::<f64>::TABLE,
         Illuminance::TABLE,

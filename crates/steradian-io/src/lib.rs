@@ -3,5 +3,6 @@
 pub mod diagnostic;
 pub mod files;
 pub mod import;
+pub mod nearest;
 pub mod report;
 pub mod scene_file;

@@ -7,10 +7,16 @@ mod check;
 mod dimming;
 mod exposure;
 mod merge;
+mod resampled;
+pub mod solve;
+mod statistics;
+#[cfg(test)]
+mod synthetic;
 
 pub use check::Contradiction;
-pub use dimming::{Dimming, ScheduleError};
+pub use dimming::{Dimming, RelightError, ScheduleError};
 pub use exposure::Exposure;
+pub use statistics::{Extreme, Statistics};
 
 use serde::{Deserialize, Serialize};
 
@@ -215,15 +221,7 @@ impl Measurements {
 
     /// Σ weight(group, lane) · column, exact and sampled parts together.
     fn combine(&self, point: &PointRecord, weight: impl Fn(usize, usize) -> f64) -> Estimate {
-        let lanes = self.lanes.len();
-        let weights: Vec<f64> = (0..point.exact.len())
-            .map(|column| weight(column / lanes, column % lanes))
-            .collect();
-        let exact = weights.iter().zip(&point.exact).map(|(w, x)| w * x).sum();
-        let open = weights.iter().zip(&point.closed);
-        let open: Vec<f64> = open
-            .map(|(weight, closed)| if *closed { 0.0 } else { *weight })
-            .collect();
+        let (exact, open) = self.weighted(point, weight);
         match &point.replicates {
             Some(replicates) if open.iter().any(|weight| *weight != 0.0) => {
                 let sampled = replicates.combine(&open);
@@ -233,6 +231,23 @@ impl Measurements {
             }
             _ => Estimate::closed_form(exact),
         }
+    }
+
+    /// Σ weight(group, lane) · exact part, and the weights of those columns that have a sampled part.
+    fn weighted(
+        &self,
+        point: &PointRecord,
+        weight: impl Fn(usize, usize) -> f64,
+    ) -> (f64, Vec<f64>) {
+        let lanes = self.lanes.len();
+        let columns = 0..point.exact.len();
+        let weights: Vec<f64> = columns
+            .map(|column| weight(column / lanes, column % lanes))
+            .collect();
+        let exact = weights.iter().zip(&point.exact).map(|(w, x)| w * x).sum();
+        let open = weights.iter().zip(&point.closed);
+        let open = open.map(|(weight, closed)| if *closed { 0.0 } else { *weight });
+        (exact, open.collect())
     }
 }
 
@@ -438,6 +453,43 @@ mod tests {
         assert!(close(hours.std_error, 2.0 * sky_error));
         assert!(close(exposure.estimate.value, 3600.0 * hours.value));
         assert_eq!(exposure.unit, "J/m2");
+    }
+
+    /// Of the lamps' 105 and the sky's 8.15, dimmed in two steps; what the bands of the lamps share still cancels.
+    #[test]
+    fn dimmed_groups_keep_their_covariances() {
+        let groups = ["lamps".to_owned(), "sky".to_owned()];
+        let half = Dimming::default().relit("sky", 0.5, &groups).unwrap();
+        let dimming = half.relit("sky", 0.5, &groups).unwrap();
+        let dimming = dimming.relit("lamps", 2.0, &groups).unwrap();
+        assert_eq!(dimming.levels(&groups), [("lamps", 2.0), ("sky", 0.25)]);
+        let lanes = bands();
+        let columns = (EXACT.to_vec(), vec![false; 4]);
+        let readout = readout(&lanes, false);
+        let reading = measured_while(&lanes, readout, columns, &SAMPLED, dimming);
+        let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-5;
+        assert!(close(reading.estimate.value, 2.0 * 105.0 + 0.25 * 8.15));
+        assert!(close(
+            reading.estimate.std_error,
+            0.25 * (0.05_f64 / 12.0).sqrt()
+        ));
+        assert!(close(sum(&reading.groups), reading.estimate.value));
+    }
+
+    #[test]
+    fn light_that_is_not_there_cannot_be_dimmed() {
+        let groups = ["lamps".to_owned()];
+        let relit = |name, factor| Dimming::default().relit(name, factor, &groups);
+        assert_eq!(
+            relit("sky", 0.5),
+            Err(RelightError::UnknownGroup("sky".into()))
+        );
+        for factor in [-0.1, f64::NAN, f64::INFINITY] {
+            assert!(matches!(
+                relit("lamps", factor),
+                Err(RelightError::Factor { .. })
+            ));
+        }
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod help;
 mod inspect;
 mod instruments;
 mod interruption;
+mod light_groups;
 mod pictures;
 mod plots;
 mod results;

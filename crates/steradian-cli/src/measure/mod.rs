@@ -1,6 +1,8 @@
 //! `steradian measure`: what the sensors of a scene read.
 
+mod relight;
 mod result_file;
+mod solve;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -34,8 +36,8 @@ const DEFAULT_REL_ERROR: f64 = 0.01;
 /// Lights may have a schedule, factors in the course of time. Readings are those of factor 1, or with --at those of a time; with
 /// --duration each is also added up over an interval, exactly and without tracing light again.
 ///
-/// The JSON of an earlier run may stand in place of the scene: it is read and printed again, in any format and at any time of
-/// the schedules, and nothing is traced.
+/// The JSON of an earlier run may stand in place of the scene: it is read and printed again, in any format, at any time of the
+/// schedules, with light groups dimmed or solved for, and nothing is traced.
 ///
 /// Lights given in watts give readings in W/m2, W, W/(m2 sr); lights given in lumens or candela give lx, lm, cd/m2.
 #[derive(Args, Debug)]
@@ -57,6 +59,8 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
+    lights: Lights,
+    #[command(flatten)]
     when: When,
     #[command(flatten)]
     stop: Stop,
@@ -69,9 +73,22 @@ Examples:
   steradian measure scenes/point-light.toml
   steradian measure scenes/closed-room.toml --rel-error 0.2% --format json -o room.json
   steradian measure scenes/lamps-equal.toml --time 10s --format csv
-  steradian measure room.json --format csv      the same readings again, from the file
+  steradian measure room.json --format csv                             the same readings again, from the file
+  steradian measure room.json --relight 'lamp=50%,window=off'          with lights dimmed, errors included
+  steradian measure room.json --solve 'desk: mean = 500 lx' --vary lamp       what dimming gives that
   steradian measure scenes/working-day.toml --start 7h --duration 12h
   steradian measure scenes/furnace.toml --samples 65536 --shard 1/3 -o part1";
+
+/// What is asked about light groups; nothing is traced for it.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Light groups (dimmed or solved for without tracing again)")]
+struct Lights {
+    /// Multiply the light of groups: desk=50%,window=off,ceiling=1.2
+    #[arg(long, value_name = "GROUP=FACTOR,…", value_parser = relight::levels, conflicts_with = "shard")]
+    relight: Option<relight::Levels>,
+    #[command(flatten)]
+    question: solve::Question,
+}
 
 /// What schedules are asked.
 #[derive(Args, Debug)]
@@ -128,12 +145,18 @@ struct Stop {
 
 /// Measures or reads a result, and writes it, or the part of it that a shard is.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
-    let readings = if result_file::is_one(&arguments.scene) {
+    let mut readings = if result_file::is_one(&arguments.scene) {
         result_file::read(arguments)?
     } else {
         traced(arguments)?
     };
-    let file = arguments.output.as_deref();
+    let (file, lights) = (arguments.output.as_deref(), &arguments.lights);
+    if let Some(levels) = &lights.relight {
+        relight::apply(levels, &mut readings.measurements)?;
+    }
+    if lights.question.is_asked() {
+        return lights.question.answer(&readings, arguments.format, file);
+    }
     match arguments.engine.shard {
         Some(_) => part::write(
             Kind::Readings,

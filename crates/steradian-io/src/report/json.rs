@@ -6,12 +6,15 @@
 //! column, in the radiant unit of the sensor's quantity. With them lamps can be dimmed or switched afterwards: weigh and add
 //! the means of each replicate, and the spread of the sums gives their error, covariances included.
 //!
+//! `statistics` has mean, extremes, `uniformity` (U₀ = min/mean) and `diversity` (min/max) of each sensor with several points; those that noise
+//! biases say so. `relit` has the factors of light groups that are not 1; all readings are with them.
+//!
 //! A run that was asked for an interval states it as `over`, and in each reading as `exposure` what the reading adds up to, by
 //! seconds and, `in_hours`, by hours. `at` is the time that readings belong to; `null` means that all lights give all they can.
 
 use serde_json::{Map, Value, json};
-use steradian::estimation::Estimate;
-use steradian::measurement::{Exposure, Reading};
+use steradian::estimation::{Estimate, Method};
+use steradian::measurement::{Exposure, Extreme, Measurements, Reading, Statistics};
 use steradian::quantity::Time;
 
 use super::error::ReportError;
@@ -53,8 +56,10 @@ fn report(run: &Run<'_>) -> Value {
             "from": seconds(interval.from()),
             "to": seconds(interval.to()),
         })),
+        "relit": relit(measurements),
         "note": SAMPLING_ERROR_ONLY,
         "readings": readings.iter().map(reading).collect::<Vec<_>>(),
+        "statistics": measurements.statistics().iter().map(statistics).collect::<Vec<_>>(),
     })
 }
 
@@ -75,6 +80,47 @@ fn reading(reading: &Reading) -> Value {
         object.insert("exposure".to_owned(), exposure(found));
     }
     Value::Object(object)
+}
+
+/// The factors on light groups that are not 1.
+pub fn relit(measurements: &Measurements) -> Value {
+    let levels = measurements.dimming.levels(&measurements.groups);
+    let level = |(name, level): (&str, f64)| (name.to_owned(), json!(level));
+    Value::Object(levels.into_iter().map(level).collect())
+}
+
+fn statistics(found: &Statistics) -> Value {
+    let of_unit = |value: &Estimate, unit: &str| {
+        let mut object = estimate(value);
+        object.insert("unit".to_owned(), json!(unit));
+        object
+    };
+    let extreme = |extreme: &Extreme| {
+        let mut object = of_unit(&extreme.estimate, &found.unit);
+        object.insert("index".to_owned(), json!(extreme.index));
+        object.insert("position".to_owned(), json!(extreme.position));
+        object.insert("biased".to_owned(), json!(is_sampled(&extreme.estimate)));
+        object
+    };
+    let ratio = |ratio: &Estimate| {
+        let mut object = of_unit(ratio, "1");
+        object.insert("biased".to_owned(), json!(is_sampled(ratio)));
+        object
+    };
+    json!({
+        "sensor": found.sensor,
+        "quantity": found.quantity,
+        "points": found.points,
+        "mean": of_unit(&found.mean, &found.unit),
+        "min": extreme(&found.min),
+        "max": extreme(&found.max),
+        "uniformity": found.uniformity.as_ref().map(ratio),
+        "diversity": found.diversity.as_ref().map(ratio),
+    })
+}
+
+fn is_sampled(estimate: &Estimate) -> bool {
+    estimate.method == Method::Estimate
 }
 
 fn exposure(exposure: &Exposure) -> Value {

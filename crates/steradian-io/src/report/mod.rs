@@ -25,6 +25,7 @@ pub mod png;
 mod raster;
 pub mod run;
 pub mod shard;
+pub mod solution;
 pub mod stored;
 pub mod svg;
 pub mod table;

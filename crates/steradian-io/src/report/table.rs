@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use steradian::estimation::Estimate;
-use steradian::measurement::{Measurements, Reading};
+use steradian::measurement::{Measurements, Reading, Statistics};
 
 use steradian::quantity::Time;
 use steradian::time::Interval;
@@ -22,6 +22,11 @@ pub fn encode(run: &Run<'_>) -> String {
     }
     text.push_str(&columns(run.measurements, &readings).to_string());
     text.push('\n');
+    let statistics = run.measurements.statistics();
+    if !statistics.is_empty() {
+        text.push_str(&summary(&statistics).to_string());
+        text.push('\n');
+    }
     if let Some(interval) = run.measurements.dimming.interval() {
         text.push_str(&exposures(&readings, interval).to_string());
         text.push('\n');
@@ -91,6 +96,29 @@ fn cells(measurements: &Measurements, reading: &Reading, shown: Parts) -> Vec<St
     cells
 }
 
+/// What the points of each sensor have in common.
+fn summary(statistics: &[Statistics]) -> Columns {
+    let headings = [
+        "sensor", "quantity", "mean", "min", "at #", "max", "at #", "min/mean", "min/max",
+    ];
+    let mut columns = Columns::new(headings).right_aligned(4).right_aligned(6);
+    for found in statistics {
+        let ratio = |ratio: &Option<Estimate>| ratio.as_ref().map_or_else(String::new, estimate);
+        columns.row([
+            found.sensor.clone(),
+            found.quantity.clone(),
+            with_unit(&found.mean, &found.unit),
+            with_unit(&found.min.estimate, &found.unit),
+            found.min.index.to_string(),
+            with_unit(&found.max.estimate, &found.unit),
+            found.max.index.to_string(),
+            ratio(&found.uniformity),
+            ratio(&found.diversity),
+        ]);
+    }
+    columns
+}
+
 /// What the readings add up to over an interval.
 fn exposures(readings: &[Reading], interval: Interval) -> Columns {
     let hours = |time: Time| exact(time.to_hours());
@@ -135,6 +163,7 @@ fn notes(run: &Run<'_>, readings: &[Reading]) -> Vec<String> {
     let measurements = run.measurements;
     let mut notes = vec![SAMPLING_ERROR_ONLY.to_owned(), identity(run)];
     notes.extend(dimmed(measurements));
+    notes.extend(relit(measurements));
     let missed = readings
         .iter()
         .filter(|reading| !reading.estimate.converged)
@@ -169,8 +198,24 @@ fn dimmed(measurements: &Measurements) -> Option<String> {
     }
 }
 
+/// How light groups were dimmed after the run.
+pub(super) fn relit(measurements: &Measurements) -> Option<String> {
+    let levels = measurements.dimming.levels(&measurements.groups);
+    let level = |(name, level): &(&str, f64)| match *level {
+        0.0 => format!("{name} off"),
+        level => format!("{name} at {} %", exact(100.0 * level)),
+    };
+    let levels: Vec<String> = levels.iter().map(level).collect();
+    (!levels.is_empty()).then(|| {
+        format!(
+            "Relit from the result of a run: {}. Whether readings converged is told of that run.",
+            levels.join(", ")
+        )
+    })
+}
+
 /// The numbers that a repetition needs.
-fn identity(run: &Run<'_>) -> String {
+pub(super) fn identity(run: &Run<'_>) -> String {
     let measurements = run.measurements;
     let mut text = String::new();
     if let Some(efficacy) = measurements.luminous_efficacy {

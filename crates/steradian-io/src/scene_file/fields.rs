@@ -10,9 +10,9 @@ use toml::de::{DeTable, DeValue};
 
 use super::context::Context;
 use super::keys::{Key, Need, Value, With};
-use super::nearest::nearest;
 use super::node::{Node, in_file_order};
 use super::value::Read;
+use crate::nearest::nearest;
 
 /// The keys of one table that are in the file.
 pub(super) struct Fields<'a> {

@@ -34,7 +34,6 @@ mod luminaire;
 mod material;
 mod mesh;
 mod models;
-mod nearest;
 mod node;
 mod placement;
 mod relief;

@@ -8,7 +8,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::context::Context;
 use super::fields::Fields;
 use super::keys::{Family, Record, Value};
-use super::nearest::nearest;
+use crate::nearest::nearest;
 
 /// A value of the file.
 #[derive(Copy, Clone)]

@@ -10,10 +10,10 @@ use toml::de::{DeTable, DeValue};
 use super::context::Context;
 use super::fields::Fields;
 use super::keys::Form;
-use super::nearest::nearest;
 use super::node::{Node, in_file_order};
 use super::tables::{SCENE, SECTIONS};
 use super::{light, material, sensor, shape};
+use crate::nearest::nearest;
 
 /// What the sections say, and where its parts come from.
 pub(super) struct Sections {

@@ -313,7 +313,7 @@ pub(super) fn choice<'n>(node: Node<'_>, names: &[&'n str]) -> Option<&'n str> {
             .map(|name| format!("{name:?}"))
             .collect::<Vec<_>>()
             .join(", ");
-        let nearest = text.and_then(|text| super::nearest::nearest(text, names.iter().copied()));
+        let nearest = text.and_then(|text| crate::nearest::nearest(text, names.iter().copied()));
         let hint = nearest.map(|name| format!("did you mean {name:?}?"));
         node.expected_with_hint(&format!("one of {listed}"), hint);
     }

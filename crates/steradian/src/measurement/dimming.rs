@@ -1,4 +1,4 @@
-//! Readings at a moment and over an interval, from schedules: nothing is traced again.
+//! Readings at a moment, over an interval, and with lights dimmed: nothing is traced again.
 //!
 //! Light is linear in its sources. If a light group adds Eg to a reading while its lights give all they can, and its schedule
 //! is fg(t), then
@@ -13,8 +13,9 @@
 //! | fg | factor of its schedule; 1 without one | 1 |
 //! | E(t), H | the reading at a time, and its integral | lx; lx s |
 //!
-//! Both are sums of the same columns with other weights, made for each replicate before errors are estimated. So errors that
-//! groups share add up as they are, and those that cancel cancel.
+//! A group can be dimmed by a constant factor as well, on top of its schedule. All are sums of the same columns with other
+//! weights, made for each replicate before errors are estimated. So errors that groups share add up as they are, and those
+//! that cancel cancel.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -32,12 +33,32 @@ pub struct ScheduleError {
     pub fault: TimeError,
 }
 
+/// A light group that cannot be dimmed so.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum RelightError {
+    /// No group of this name.
+    #[error("there is no light group `{0}`")]
+    UnknownGroup(String),
+    /// Light cannot be taken away.
+    #[error("the factor of light group `{group}` is not negative and finite, not {factor}")]
+    Factor {
+        /// The group.
+        group: String,
+        /// What was asked for.
+        factor: f64,
+    },
+}
+
 /// How much light each group gives: when readings are taken, and over which interval they are added up.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Dimming {
     schedules: Vec<Option<Schedule>>,
     moment: Option<Moment>,
     period: Option<Period>,
+    /// Factors on top of the schedules, by group; empty if all are 1.
+    #[serde(default)]
+    levels: Vec<f64>,
 }
 
 /// A time, and each group's factor at it.
@@ -88,6 +109,41 @@ impl Dimming {
         Ok(self)
     }
 
+    /// The same with the light of a group multiplied by a factor, on top of its schedule and of earlier factors.
+    ///
+    /// # Errors
+    /// If none of `groups` has this name, or the factor is negative or not finite.
+    pub fn relit(
+        mut self,
+        group: &str,
+        factor: f64,
+        groups: &[String],
+    ) -> Result<Self, RelightError> {
+        let group = group.to_owned();
+        if !(factor >= 0.0 && factor.is_finite()) {
+            return Err(RelightError::Factor { group, factor });
+        }
+        if !groups.contains(&group) {
+            return Err(RelightError::UnknownGroup(group));
+        }
+        self.levels.resize(groups.len(), 1.0);
+        let levels = self.levels.iter_mut().zip(groups);
+        let named = levels.filter(|(_, name)| **name == group);
+        named.for_each(|(level, _)| *level *= factor);
+        Ok(self)
+    }
+
+    /// The factors of [`relit`](Self::relit) that are not 1, with the names of their groups, each once.
+    pub fn levels<'a>(&self, groups: &'a [String]) -> Vec<(&'a str, f64)> {
+        let mut levels: Vec<(&str, f64)> = Vec::new();
+        for (name, level) in groups.iter().zip(&self.levels) {
+            if *level != 1.0 && !levels.iter().any(|(known, _)| known == name) {
+                levels.push((name, *level));
+            }
+        }
+        levels
+    }
+
     /// A number of each schedule, and `always` of groups without one.
     fn of_groups(
         &self,
@@ -110,7 +166,9 @@ impl Dimming {
         let fits = |length: usize| length == groups;
         let moment = self.moment.as_ref();
         let period = self.period.as_ref();
-        (self.schedules.is_empty() || fits(self.schedules.len()))
+        let fits_or_empty = |length: usize| length == 0 || fits(length);
+        fits_or_empty(self.schedules.len())
+            && fits_or_empty(self.levels.len())
             && moment.is_none_or(|moment| fits(moment.factors.len()))
             && period.is_none_or(|period| fits(period.seconds.len()))
     }
@@ -134,12 +192,16 @@ impl Dimming {
     /// The factor of a group's light in readings.
     pub(super) fn factor(&self, group: usize) -> f64 {
         let moment = self.moment.as_ref();
-        moment.map_or(1.0, |moment| moment.factors[group])
+        self.level(group) * moment.map_or(1.0, |moment| moment.factors[group])
     }
 
     /// The full-power time of a group, in seconds.
     pub(super) fn seconds(&self, group: usize) -> f64 {
         let period = self.period.as_ref();
-        period.map_or(0.0, |period| period.seconds[group])
+        self.level(group) * period.map_or(0.0, |period| period.seconds[group])
+    }
+
+    fn level(&self, group: usize) -> f64 {
+        self.levels.get(group).copied().unwrap_or(1.0)
     }
 }
