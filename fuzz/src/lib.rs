@@ -15,7 +15,10 @@ use steradian_io::diagnostic::render;
 use steradian_io::files::MemoryFiles;
 use steradian_io::import::boundaries::{BoundaryLine, read_boundaries};
 use steradian_io::import::image::Encoding;
-use steradian_io::import::{MeshFile, bsdf, gltf, image, obj, ply, points, series, spectrum, stl};
+use steradian_io::import::{
+    MeshFile, bsdf, gltf, image, luminance_map as maps, obj, photometry, ply, points, series,
+    spectrum, stl,
+};
 use steradian_io::report::Shard;
 use steradian_io::scene_file::read_scene_str;
 
@@ -23,7 +26,7 @@ use steradian_io::scene_file::read_scene_str;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target.
-pub const TARGETS: [Target; 16] = [
+pub const TARGETS: [Target; 20] = [
     ("scene_file", scene_file),
     ("obj", obj),
     ("mtl", mtl),
@@ -36,6 +39,10 @@ pub const TARGETS: [Target; 16] = [
     ("bsdf_xml", bsdf_xml),
     ("merl", merl),
     ("rgl", rgl),
+    ("ies", ies),
+    ("ldt", ldt),
+    ("tm33", tm33),
+    ("luminance_map", luminance_map),
     ("points", points),
     ("series", series),
     ("boundaries", boundaries),
@@ -135,6 +142,55 @@ pub fn bsdf_xml(bytes: &[u8]) {
     match bsdf::xml::read(bytes) {
         Ok(file) => assert_scatters(&file),
         Err(error) => assert!(error.to_string().starts_with("line ")),
+    }
+}
+
+/// IES LM-63.
+pub fn ies(bytes: &[u8]) {
+    luminaire("a.ies", bytes);
+}
+
+/// EULUMDAT.
+pub fn ldt(bytes: &[u8]) {
+    luminaire("a.ldt", bytes);
+}
+
+/// IES TM-33.
+pub fn tm33(bytes: &[u8]) {
+    luminaire("a.xml", bytes);
+}
+
+/// Luminaires: a table that can be integrated and looked at, or a message.
+fn luminaire(name: &str, bytes: &[u8]) {
+    let files = MemoryFiles::default()
+        .with(name, bytes)
+        .with("a.tlt", "1\n2\n0 90\n1 .5\n");
+    match photometry::read(Path::new(name), &files) {
+        Ok(lamp) => {
+            // Sums of the greatest numbers overflow.
+            let flux = lamp.far_field.flux();
+            assert!(flux >= 0.0 || flux.is_nan());
+            for direction in [Direction::X, -Direction::Y, -Direction::Z] {
+                assert!(lamp.far_field.intensity(direction) >= 0.0);
+                assert!(lamp.projected_area(direction).to_square_metres() >= 0.0);
+            }
+        }
+        Err(problems) => assert!(!render(&problems, false).is_empty()),
+    }
+}
+
+/// Pictures of luminance: the first byte tells the format.
+pub fn luminance_map(bytes: &[u8]) {
+    let Some((format, bytes)) = bytes.split_first() else {
+        return;
+    };
+    let name = ["a.pfm", "a.hdr", "a.exr"][usize::from(format % 3)];
+    let files = MemoryFiles::default().with(name, bytes);
+    if let Ok(map) = maps::read(Path::new(name), &files) {
+        assert_eq!(
+            map.luminances.len(),
+            map.size[0] as usize * map.size[1] as usize
+        );
     }
 }
 

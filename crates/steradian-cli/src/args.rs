@@ -3,8 +3,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::{
-    area, brdf, direction, energy, form_factor, help, inspect, learn, measure, merge, plot, render,
-    report, solid_angle, verify,
+    area, brdf, direction, energy, form_factor, glare, help, inspect, learn, measure, merge, plot,
+    render, report, solid_angle, verify,
 };
 
 /// Light in SI units: radiance, irradiance and flux in a scene, each number with its unit and an error bar.
@@ -43,6 +43,8 @@ pub enum Command {
     Report(report::Arguments),
     /// List what a scene or mesh holds: areas, reflectances, fluxes, sensors; and what is wrong with it: leaks, doubled faces …
     Inspect(inspect::Arguments),
+    /// Assess the glare of a view: in a picture of luminance, or for an observer in a scene
+    Glare(Box<glare::Arguments>),
     /// Check this program on scenes with closed-form answers
     Verify(verify::Arguments),
     /// Put the parts of a run together that `--shard` computed

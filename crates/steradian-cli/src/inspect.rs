@@ -9,14 +9,15 @@ mod polar;
 mod triangles;
 mod ugr;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use steradian::quantity::Length;
 use steradian::scene::Scene;
 use steradian::transport::unsampled;
+use steradian_io::files::DiskFiles;
 use steradian_io::import::bsdf::is_measured;
-use steradian_io::import::photometry::is_luminaire;
+use steradian_io::import::photometry;
 
 use crate::load::Loaded;
 use crate::status::{Failure, Outcome};
@@ -41,14 +42,14 @@ use triangles::Triangles;
 /// largest sum), by how much it is not reciprocal, and what was mended or passed over. Above is the side of the normal, the
 /// interior; WINDOW calls light from there "Back".
 ///
-/// Of a luminaire (IES LM-63, EULUMDAT): header, flux by exact integration of the table as it is interpolated, light output ratio,
+/// Of a luminaire (IES LM-63, EULUMDAT, IES TM-33): header, flux by exact integration of the table as it is interpolated, light output ratio,
 /// efficacy, greatest intensity, beam angle (half of the greatest intensity of a plane) and field angle (a tenth), CIE flux code,
 /// luminous opening, and the UGR table: glare in rooms of X across and Y along the line of sight, over the height H of the luminaires above the eye, by CIE
 /// 117 and CIE 190. An entry "-" has no luminaire that shines towards the observer.
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
-    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL; BSDF XML, MERL .binary, RGL .bsdf; IES, LDT)
+    /// Scene file (TOML), or a file of another program (glTF, OBJ, PLY, STL; BSDF XML, MERL .binary, RGL .bsdf; IES, LDT, TM-33 XML)
     scene: PathBuf,
     /// How to print
     #[arg(long, value_enum, default_value_t)]
@@ -85,6 +86,14 @@ struct Inspection<'a> {
     unsampled: Vec<String>,
 }
 
+/// XML is a luminaire's only if it says so.
+fn is_luminaire(path: &Path) -> bool {
+    let is_xml = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("xml"));
+    photometry::is_luminaire(path) && (!is_xml || photometry::is_tm33(path, &DiskFiles::default()))
+}
+
 /// Prints the lists.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let plot = arguments.plot.as_deref();
@@ -92,7 +101,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         return luminaire::run(&arguments.scene, arguments.format, arguments.strict, plot);
     }
     if plot.is_some() {
-        return Err(Failure::message("--plot draws luminaires (IES, LDT)"));
+        return Err(Failure::message(
+            "--plot draws luminaires (IES, LDT, TM-33)",
+        ));
     }
     if is_measured(&arguments.scene) {
         return measured::run(&arguments.scene, arguments.format, arguments.strict);

@@ -7,6 +7,7 @@ mod direction;
 mod energy;
 mod engine;
 mod form_factor;
+mod glare;
 mod help;
 mod inspect;
 mod interrupt;
@@ -46,6 +47,7 @@ fn run(command: Command) -> Result<Outcome, Failure> {
         Command::Render(arguments) => render::run(&arguments),
         Command::Measure(arguments) => measure::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Glare(arguments) => glare::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),

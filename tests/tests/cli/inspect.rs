@@ -227,3 +227,37 @@ fn a_broken_luminaire_is_refused_with_its_place() {
     let message = steradian(&["inspect", &luminaire("mdl_test_malformed.ies")]).error();
     assert!(message.contains("mdl_test_malformed.ies:3:1"), "{message}");
 }
+
+/// The first entry of the table of this file is 20.2 in DIALux and 20.3 in Relux.
+#[test]
+fn a_luminaire_has_a_ugr_table_and_a_diagram() {
+    let path = luminaire("ugr_sample_08.ldt");
+    let folder = Folder::new();
+    let drawing = folder.path("polar.svg");
+    let text = steradian(&["inspect", &path, "--plot", &drawing]).fine();
+    assert!(
+        text.contains("12H  8H") && text.contains("70/50/20"),
+        "{text}"
+    );
+    let svg = std::fs::read_to_string(&drawing).unwrap();
+    assert!(svg.contains("luminous intensity (cd)") && svg.contains("all planes"));
+    let object = json(&path);
+    let first = object["ugr"]["rooms"][0]["crosswise"][0].as_f64().unwrap();
+    assert!((first - 20.1).abs() < 0.3, "{first}");
+    let point = json(&luminaire("mdl_rimlight_iesna91.ies"));
+    assert!(
+        point["ugr"]["missing"]
+            .as_str()
+            .unwrap()
+            .contains("no luminous opening")
+    );
+    let message = steradian(&["inspect", "scenes/point-light.toml", "--plot", &drawing]).error();
+    assert!(message.contains("luminaires"), "{message}");
+}
+
+#[test]
+fn xml_of_luminaires_is_told_from_xml_of_surfaces() {
+    let object = json(&luminaire("quadrant_tm33.xml"));
+    assert_eq!(object["format"], "IESTM33-22");
+    assert_eq!(object["power"]["value"], 12.5);
+}

@@ -7,6 +7,7 @@ mod energy;
 mod errors;
 mod form_factor;
 mod form_factor_scene;
+mod glare;
 mod help;
 mod inspect;
 mod instruments;

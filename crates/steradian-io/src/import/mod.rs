@@ -7,6 +7,7 @@ mod defaults;
 pub mod gltf;
 mod gltf_mesh;
 pub mod image;
+pub mod luminance_map;
 mod mesh_file;
 mod normals;
 pub mod obj;

@@ -208,7 +208,7 @@ impl RadianceImage {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// A picture whose lane `c` at pixel `i` is (i + 1) / (c + 3), with a tenth of it as standard error.

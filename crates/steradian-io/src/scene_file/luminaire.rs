@@ -102,7 +102,8 @@ fn loaded(fields: &Fields<'_>) -> Option<Arc<LoadedLuminaire>> {
 fn from_file(fields: &Fields<'_>, name: &str) -> Option<Photometry> {
     let (context, span) = (fields.context(), fields.span_of("file"));
     if !photometry::is_luminaire(Path::new(name)) {
-        let message = format!("expected a luminaire file (.ies or .ldt), found {name:?}");
+        let message =
+            format!("expected a luminaire file (.ies, .ldt or TM-33 .xml), found {name:?}");
         context.error(span, message, None);
         return None;
     }

@@ -113,7 +113,9 @@ fn the_files_of_luminaires_count_for_the_hash() {
 #[test]
 fn what_is_wrong_with_a_file_is_told_at_its_line() {
     let other = |file: &str| problem(&LAMP.replace("parts/downlight.ies", file));
-    assert!(other("parts/lamp.csv").contains("expected a luminaire file (.ies or .ldt)"));
+    assert!(
+        other("parts/lamp.csv").contains("expected a luminaire file (.ies, .ldt or TM-33 .xml)")
+    );
     assert!(other("none.ies").contains("cannot read the luminaire"));
     let broken = other("broken.ies");
     assert!(broken.starts_with("broken.ies, line 5: "), "{broken}");

@@ -1,4 +1,4 @@
-//! Luminaires as laboratories and makers publish them: IES LM-63 and EULUMDAT files.
+//! Luminaires as laboratories and makers publish them: IES LM-63, EULUMDAT and IES TM-33 files.
 //!
 //! ```
 //! use std::path::Path;
@@ -20,6 +20,7 @@ mod opening;
 mod projected_area;
 mod source;
 mod symmetry;
+mod tm33;
 
 use std::path::Path;
 
@@ -84,14 +85,20 @@ pub struct Photometry {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Whether a file of this name is a luminaire's.
+/// Whether a file of this name may be a luminaire's; one that ends with .xml may be a measured surface's, too.
 pub fn is_luminaire(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str());
     extension.is_some_and(|extension| {
-        ["ies", "ldt"]
+        ["ies", "ldt", "xml", "iesxml"]
             .iter()
             .any(|known| extension.eq_ignore_ascii_case(known))
     })
+}
+
+/// Whether an XML file is a luminaire's by its first element; `false` if it cannot be read.
+pub fn is_tm33(path: &Path, files: &dyn Files) -> bool {
+    let bytes = files.read(path).unwrap_or_default();
+    tm33::is_tm33(&String::from_utf8_lossy(&bytes))
 }
 
 /// Reads a luminaire.
@@ -103,8 +110,9 @@ pub fn read(path: &Path, files: &dyn Files) -> Result<Photometry, Vec<Diagnostic
     match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("ies") => ies::read(path, files),
         Some("ldt") => eulumdat::read(path, files),
+        Some("xml" | "iesxml") => tm33::read(path, files),
         _ => {
-            let message = "expected a luminaire file (.ies or .ldt)";
+            let message = "expected a luminaire file (.ies, .ldt or TM-33 .xml)";
             let file = std::sync::Arc::new(crate::diagnostic::SourceFile {
                 name: path.display().to_string(),
                 text: String::new(),

@@ -232,7 +232,7 @@ fn broken_files_are_refused_with_their_place() {
     assert!(problem_of("a.ies", laterals).contains("not from 0° to 45°"));
     let negative = "TILT=NONE\n1 1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n1 -1\n";
     assert!(problem_of("a.ies", negative).contains("finite and not negative"));
-    assert!(problem_of("a.txt", "").contains(".ies or .ldt"));
+    assert!(problem_of("a.txt", "").contains(".ies, .ldt or TM-33 .xml"));
     assert!(problem_of("a.ldt", "maker\n1\n7\n").contains("Isym), 0 to 4, found 7"));
 }
 

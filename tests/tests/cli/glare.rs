@@ -1,0 +1,99 @@
+//! What `glare` says of views whose measures are known.
+
+use std::f64::consts::PI;
+
+use serde_json::Value;
+use steradian_tests::command::{Folder, steradian};
+
+fn number(value: &Value) -> f64 {
+    value["value"].as_f64().unwrap()
+}
+
+/// 64 × 64 pixels of 1 W/(m² sr), which is 179 cd/m².
+fn even(folder: &Folder) -> String {
+    let mut bytes = b"Pf\n64 64\n-1.0\n".to_vec();
+    bytes.extend([1.0_f32.to_le_bytes(); 64 * 64].as_flattened());
+    let path = folder.path("even.pfm");
+    std::fs::write(&path, bytes).unwrap();
+    path
+}
+
+/// E_v = πL; of an equisolid picture, whose rim of 64 pixels is off by a part in 64 at most.
+#[test]
+fn an_even_picture_has_no_source() {
+    let folder = Folder::new();
+    let arguments = ["glare", &even(&folder), "--view", "fisheye-equisolid"];
+    let text = steradian(&arguments).fine();
+    for part in ["no error layer", "imperceptible", "none: no source"] {
+        assert!(text.contains(part), "{text}");
+    }
+    let object = steradian(&[&arguments[..], &["--format", "json"]].concat()).fine();
+    let object: Value = serde_json::from_str(&object).unwrap();
+    assert_eq!(object["schema"], "steradian.glare/1");
+    assert!((number(&object["illuminance"]) / (179.0 * PI) - 1.0).abs() < 1.0 / 64.0);
+    let expected = 0.16 + 5.87e-5 * number(&object["illuminance"]);
+    assert!((number(&object["daylight_glare_probability"]) - expected).abs() < 1e-12);
+    assert!(object["illuminance"]["std_error"].is_null());
+    assert!(object["unified_glare_rating"].is_null());
+}
+
+#[test]
+fn what_is_missing_is_asked_for() {
+    let folder = Folder::new();
+    let picture = even(&folder);
+    assert!(steradian(&["glare", &picture]).error().contains("--view"));
+    assert!(
+        steradian(&["glare", "scenes/open-sky.toml"])
+            .error()
+            .contains("--observer")
+    );
+    let observer = ["--observer", "0,0,1", "--look", "1,0,0"];
+    let both = [&["glare", &picture][..], &observer].concat();
+    assert!(steradian(&both).error().contains("not at a picture"));
+    let view = [
+        "glare",
+        &picture,
+        "--view",
+        "perspective",
+        "--angle",
+        "180deg",
+    ];
+    assert!(steradian(&view).error().contains("between 0 and 180deg"));
+    let task = [
+        "glare",
+        &picture,
+        "--view",
+        "fisheye-equisolid",
+        "--task",
+        "32,32,20deg",
+    ];
+    assert!(steradian(&task).error().contains("--threshold 5x"));
+}
+
+/// All that is seen has one luminance: L = 1000 cd/m², E_v = 1000π lx. Pixels on the rim, a part in 64 at most, are dark in part.
+#[test]
+fn an_observer_under_an_even_sky_sees_it() {
+    let folder = Folder::new();
+    let scene = "[scene]\nname = \"Sky\"\nspectrum = \"rgb\"\n\n[[lights]]\nkind = \"environment\"\nradiance = \"1000 cd/m2\"\n";
+    let path = folder.path("sky.toml");
+    std::fs::write(&path, scene).unwrap();
+    let arguments = [
+        "glare",
+        &path,
+        "--observer",
+        "0,0,1.2",
+        "--look",
+        "1,0.2,0",
+        "--resolution",
+        "64x64",
+        "--samples",
+        "4",
+        "--format",
+        "json",
+    ];
+    let object: Value = serde_json::from_str(&steradian(&arguments).fine()).unwrap();
+    assert!((number(&object["mean_luminance"]) / 1000.0 - 1.0).abs() < 1.0 / 64.0);
+    assert!((number(&object["illuminance"]) / (1000.0 * PI) - 1.0).abs() < 1.0 / 64.0);
+    assert_eq!(object["error_layer"], true);
+    assert_eq!(object["sources"].as_array().unwrap().len(), 0);
+}
