@@ -20,7 +20,8 @@ use crate::status::{Failure, Outcome};
 ///
 /// A picture is one of luminance: Radiance's HDR, EXR or PFM, whose view looks where the observer looks. Fisheyes of 180° show all that
 /// an observer sees; less than that leaves out light at the eye. Pictures of Radiance state their view; others need --view. Of a scene, the view of
-/// --observer is rendered first.
+/// --observer is rendered first; beside it, the unified glare rating of the scene's lights is found from their luminances, how much of them is seen, and
+/// the illuminance at the eye, measured within 1 %.
 ///
 /// What is brighter than the threshold is a source of glare; what is brighter than the peak is a source of its own. Errors come from the picture's own
 /// errors (EXR of `steradian render`, NAME.error.pfm beside NAME.pfm) and include nothing else.
@@ -137,11 +138,13 @@ struct Found {
     has_errors: bool,
     /// What the probability is multiplied with.
     low_light: Option<f64>,
+    /// The lights of a scene.
+    lights: Option<scene::Lights>,
 }
 
 /// Prints the figures.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
-    let map = map(arguments)?;
+    let (map, lights) = seen(arguments)?;
     let camera = camera(&map, arguments)?;
     let errors = map.std_errors.as_deref();
     let view = FieldOfView::new(&camera, &map.luminances, errors).map_err(failed)?;
@@ -152,25 +155,32 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         assessment,
         has_errors: errors.is_some(),
         low_light: arguments.low_light.then(|| low_light_factor(eye)),
+        lights,
     };
     output::print(&match arguments.format {
         Format::Table => report::table(&arguments.input, &found),
         Format::Json => format!("{:#}\n", report::json(&arguments.input, &found)),
     })?;
-    Ok(Outcome::Fine)
+    let converged = |lights: &scene::Lights| lights.illuminance.converged;
+    Ok(Outcome::fine_if(
+        found.lights.as_ref().is_none_or(converged),
+    ))
 }
 
-fn map(arguments: &Arguments) -> Result<LuminanceMap, Failure> {
+/// The picture, and the lights of a scene.
+fn seen(arguments: &Arguments) -> Result<(LuminanceMap, Option<scene::Lights>), Failure> {
     let path = &arguments.input;
     if !luminance_map::is_luminance_map(path) {
-        return arguments.observer.picture(path);
+        let view = arguments.observer.view(path)?;
+        return Ok((view.map, Some(view.lights)));
     }
     if arguments.observer.is_there() {
         return Err(Failure::message(
             "--observer looks at a scene, not at a picture",
         ));
     }
-    luminance_map::read(path, &DiskFiles::default()).map_err(failed)
+    let map = luminance_map::read(path, &DiskFiles::default()).map_err(failed)?;
+    Ok((map, None))
 }
 
 fn failed(error: impl ToString) -> Failure {

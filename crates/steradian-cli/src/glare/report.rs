@@ -3,12 +3,14 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
+use steradian::estimation::Estimate;
 use steradian::geometry::Direction;
 use steradian::glare::{Figure, FoundSource};
 use steradian_io::report::columns::Columns;
 use steradian_io::report::numbers::significant;
 
 use super::Found;
+use super::scene::Lights;
 
 /// Name and version of the format.
 const SCHEMA: &str = "steradian.glare/1";
@@ -80,7 +82,69 @@ pub fn table(path: &Path, found: &Found) -> String {
         true => "± is one standard error: sampling error of the picture only\n",
         false => "no error layer: nothing is known of the picture's errors\n",
     };
-    format!("{heading}\n{}{errors}", sources(&all.sources))
+    let lights = found.lights.as_ref().map(lights).unwrap_or_default();
+    format!("{heading}\n{}{lights}{errors}", sources(&all.sources))
+}
+
+/// UGR of the lights of a scene, and which they are.
+fn lights(lights: &Lights) -> String {
+    let with_error = |estimate: &Estimate| {
+        let interval = estimate
+            .interval
+            .map(|ends| ends.map(|end| significant(end, DIGITS)));
+        let interval = interval.map_or(String::new(), |[low, high]| {
+            format!(" (95 %: {low} to {high})")
+        });
+        format!("{}{interval}", significant(estimate.value, DIGITS))
+    };
+    let rating = lights.rating.as_ref().map(with_error);
+    let mut text = format!(
+        "unified glare rating of the lights: {}, illuminance at the eye {} lx\n",
+        rating.unwrap_or_else(|| "none".to_owned()),
+        with_error(&lights.illuminance)
+    );
+    let mut columns = Columns::new([
+        "light",
+        "left (deg)",
+        "up (deg)",
+        "luminance (cd/m2)",
+        "solid angle (sr)",
+        "position index",
+        "illuminance (lx)",
+    ]);
+    for column in 1..7 {
+        columns = columns.right_aligned(column);
+    }
+    for light in &lights.seen.lights {
+        let [left, up] = lights.angles(light.direction);
+        let number = |value: f64| significant(value, DIGITS);
+        let source = light.source.map_or(["-"; 3].map(str::to_owned), |source| {
+            [
+                source.luminance.to_candelas_per_square_metre(),
+                source.solid_angle.to_steradians(),
+                source.position_index,
+            ]
+            .map(number)
+        });
+        let illuminance = number(light.illuminance.to_lux());
+        let angles = [left, up].map(number);
+        columns.row(
+            std::iter::once(light.name.clone())
+                .chain(angles)
+                .chain(source)
+                .chain([illuminance]),
+        );
+    }
+    if !lights.seen.lights.is_empty() {
+        text.push_str(&columns.to_string());
+    }
+    for name in &lights.seen.without_extent {
+        text.push_str(&format!(
+            "not rated, for a point has no luminance: {name}\n"
+        ));
+    }
+    text.push('\n');
+    text
 }
 
 fn sources(sources: &[FoundSource]) -> String {
@@ -149,6 +213,38 @@ pub fn json(path: &Path, found: &Found) -> Value {
         "daylight_glare_index": index.map(|value| json!({ "value": value, "unit": "1" })),
         "threshold": { "value": all.threshold, "unit": "cd/m2" },
         "sources": sources.collect::<Vec<_>>(),
+        "lights": found.lights.as_ref().map(of_lights),
+    })
+}
+
+fn of_lights(lights: &Lights) -> Value {
+    let estimate = |estimate: &Estimate, unit: &str| {
+        json!({
+            "value": estimate.value,
+            "unit": unit,
+            "std_error": estimate.std_error,
+            "confidence_interval": estimate.interval,
+            "method": estimate.method,
+        })
+    };
+    let seen = lights.seen.lights.iter().map(|light| {
+        let [left, up] = lights.angles(light.direction);
+        let source = light.source;
+        json!({
+            "name": light.name,
+            "left": { "value": left, "unit": "deg" },
+            "up": { "value": up, "unit": "deg" },
+            "luminance": source.map(|source| json!({ "value": source.luminance.to_candelas_per_square_metre(), "unit": "cd/m2" })),
+            "solid_angle": source.map(|source| json!({ "value": source.solid_angle.to_steradians(), "unit": "sr" })),
+            "position_index": source.map(|source| source.position_index),
+            "illuminance": { "value": light.illuminance.to_lux(), "unit": "lx" },
+        })
+    });
+    json!({
+        "unified_glare_rating": lights.rating.as_ref().map(|rating| estimate(rating, "1")),
+        "illuminance": estimate(&lights.illuminance, "lx"),
+        "seen": seen.collect::<Vec<_>>(),
+        "not_rated": lights.seen.without_extent,
     })
 }
 

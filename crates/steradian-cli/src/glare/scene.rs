@@ -1,15 +1,19 @@
-//! The view of an observer in a scene, as a picture.
+//! The view of an observer in a scene: as a picture, and by its lights.
 
 use std::path::Path;
 
 use clap::Args;
 use steradian::estimation::film::Filter;
-use steradian::estimation::{Plan, Stopping};
+use steradian::estimation::{Estimate, Plan, Stopping};
 use steradian::geometry::{Direction, Point};
+use steradian::glare::{Gaze, SeenLights};
 use steradian::quantity::Angle;
-use steradian::scene::description::{CameraDescription, Response, SensorDescription, SensorKind};
+use steradian::scene::Scene;
+use steradian::scene::description::{
+    CameraDescription, Receivers, Response, SensorDescription, SensorKind,
+};
 use steradian::sensor::{Fisheye, Projection};
-use steradian::transport::{Picture, RenderOptions, render};
+use steradian::transport::{MeasureOptions, Picture, RenderOptions, measure, render};
 use steradian_io::import::luminance_map::LuminanceMap;
 
 use crate::engine::Threads;
@@ -19,8 +23,46 @@ use crate::{load, values};
 
 /// Samples of a pixel where none are stated.
 const SAMPLES: u64 = 64;
-/// Name of the camera that is put into the scene.
-const OBSERVER: &str = "observer of glare";
+/// Names of the sensors that are put into the scene, in their order.
+const SENSORS: [&str; 2] = ["observer's view", "observer's eye"];
+
+/// Of the illuminance at the eye.
+const REL_ERROR: f64 = 0.01;
+const NO_LUMINANCE: &str = "the scene has no luminance: its bands say nothing of what is seen";
+/// What the observer sees.
+const PROJECTION: Projection = Projection::Fisheye {
+    mapping: Fisheye::Equisolid,
+    fov: Angle::from_degrees(180.0),
+};
+
+/// What an observer sees.
+pub struct View {
+    /// As a picture.
+    pub map: LuminanceMap,
+    /// By its lights.
+    pub lights: Lights,
+}
+
+/// The lights that an observer sees.
+pub struct Lights {
+    /// At the eye, in lx.
+    pub illuminance: Estimate,
+    /// UGR.
+    pub rating: Option<Estimate>,
+    /// The lights.
+    pub seen: SeenLights,
+    gaze: Gaze,
+}
+
+impl Lights {
+    /// How far to the left and up a direction is, in degrees.
+    pub fn angles(&self, direction: Direction) -> [f64; 2] {
+        let (ahead, up) = (self.gaze.forward(), self.gaze.up());
+        let left = up.cross(ahead);
+        let aside = libm::atan2(direction.dot(left), direction.dot(ahead));
+        [aside, libm::asin(direction.dot(up).clamp(-1.0, 1.0))].map(f64::to_degrees)
+    }
+}
 
 /// Who looks in a scene.
 #[derive(Args, Debug)]
@@ -54,36 +96,80 @@ impl Observer {
         self.observer.is_some()
     }
 
-    /// What is seen, and what has to be said about it.
-    pub fn picture(&self, path: &Path) -> Result<LuminanceMap, Failure> {
-        let (Some(position), Some(look)) = (self.observer, self.look) else {
+    /// What is seen.
+    pub fn view(&self, path: &Path) -> Result<View, Failure> {
+        let (Some(eye), Some(look)) = (self.observer, self.look) else {
             return Err(Failure::message(
                 "the glare in a scene is that for an observer: give --observer X,Y,Z and --look DX,DY,DZ",
             ));
         };
-        let camera = self.camera(position, look);
-        let projection = camera.projection;
-        let loaded = load::scene_with(path, |description| {
-            description.sensors = vec![SensorDescription {
-                name: OBSERVER.into(),
+        let gaze = Gaze::new(look, self.up)
+            .ok_or_else(|| Failure::message("--up is along --look: give another --up"))?;
+        let kinds = [
+            SensorKind::Camera(self.camera(eye, look)),
+            SensorKind::Irradiance(Receivers::Points(vec![(eye, look.to_vector())])),
+        ];
+        let scene = load::scene_with(path, |description| {
+            let sensor = |(name, kind): (&str, SensorKind)| SensorDescription {
+                name: name.to_owned(),
                 response: Some(Response::Photopic),
                 bins: None,
-                kind: SensorKind::Camera(camera),
-            }];
+                kind,
+            };
+            description.sensors = SENSORS.into_iter().zip(kinds).map(sensor).collect();
             Ok(())
         })?;
+        let scene = scene.scene;
         let mut watch = Watch::new()?;
-        let picture = render(&loaded.scene, 0, &self.options(), &mut watch)?;
+        let picture = render(&scene, 0, &self.options(), &mut watch)?;
+        let lights = self.lights(&scene, eye, gaze, &mut watch)?;
         if watch.finish() {
             remark("stopped by Ctrl-C: this is the view so far");
         }
-        for warning in &picture.warnings {
-            remark(&format!("warning: {warning}"));
-        }
-        for class in &picture.unsampled {
-            remark(&format!("not sampled, so the view is too dark: {class}"));
-        }
-        luminances(&picture, projection)
+        tell(&picture);
+        Ok(View {
+            map: luminances(&picture)?,
+            lights,
+        })
+    }
+
+    fn lights(
+        &self,
+        scene: &Scene,
+        eye: Point,
+        gaze: Gaze,
+        watch: &mut Watch,
+    ) -> Result<Lights, Failure> {
+        let options = MeasureOptions {
+            plan: Plan {
+                seed: self.seed,
+                stop: Stopping {
+                    rel_error: Some(REL_ERROR),
+                    ..Stopping::default()
+                },
+                threads: self.threads.count(),
+                ..Plan::default()
+            },
+            sensors: Some(vec![SENSORS[1].to_owned()]),
+            ..MeasureOptions::default()
+        };
+        let measured = measure(scene, &options, watch)?;
+        let readings = measured.readings();
+        let reading = readings.iter().find(|reading| reading.unit == "lx");
+        let readout = scene.sensors()[1]
+            .readouts
+            .iter()
+            .find(|readout| readout.unit == "lx");
+        let (Some(reading), Some(readout)) = (reading, readout) else {
+            return Err(Failure::message(NO_LUMINANCE));
+        };
+        let seen = SeenLights::of(scene, eye, gaze, readout, options.instruction_set);
+        Ok(Lights {
+            illuminance: reading.estimate,
+            rating: seen.unified_glare_rating(&reading.estimate),
+            seen,
+            gaze,
+        })
     }
 
     fn camera(&self, position: Point, look: Direction) -> CameraDescription {
@@ -91,10 +177,7 @@ impl Observer {
             position,
             look_at: position + look.to_vector(),
             up: self.up.to_vector(),
-            projection: Projection::Fisheye {
-                mapping: Fisheye::Equisolid,
-                fov: Angle::from_degrees(180.0),
-            },
+            projection: PROJECTION,
             resolution: self.resolution,
         }
     }
@@ -114,15 +197,23 @@ impl Observer {
     }
 }
 
+/// What has to be known of a picture.
+fn tell(picture: &Picture) {
+    for warning in &picture.warnings {
+        remark(&format!("warning: {warning}"));
+    }
+    for class in &picture.unsampled {
+        remark(&format!("not sampled, so the view is too dark: {class}"));
+    }
+}
+
 /// The luminance of every pixel; errors of lanes are added, for they are of the same paths.
-fn luminances(picture: &Picture, projection: Projection) -> Result<LuminanceMap, Failure> {
+fn luminances(picture: &Picture) -> Result<LuminanceMap, Failure> {
     let readout = picture.readouts.last();
     let weights = readout
         .filter(|readout| readout.unit == "cd/m2")
         .map(|readout| &readout.weights);
-    let weights = weights.ok_or_else(|| {
-        Failure::message("the scene has no luminance: its bands say nothing of what is seen")
-    })?;
+    let weights = weights.ok_or_else(|| Failure::message(NO_LUMINANCE))?;
     let sum = |lanes: &[f64]| {
         weights
             .iter()
@@ -139,6 +230,6 @@ fn luminances(picture: &Picture, projection: Projection) -> Result<LuminanceMap,
             .map(|lanes| sum(&lanes[..]))
             .collect(),
         std_errors: Some(exposure.std_errors().map(|lanes| sum(&lanes[..])).collect()),
-        projection: Some(projection),
+        projection: Some(PROJECTION),
     })
 }
