@@ -7,6 +7,7 @@ mod energy;
 mod full_view;
 mod furnaces;
 mod lamps;
+mod many_lights;
 mod mirrors;
 mod panes;
 mod reflection;

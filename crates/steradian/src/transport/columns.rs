@@ -3,6 +3,7 @@
 use steradian_kernel::{HitBatch, RayBatch};
 
 use super::interaction::Hit;
+use super::light_tree::Receiving;
 use super::media::AIR;
 use super::profile::StopWatch;
 use super::scattering::Encounter;
@@ -325,6 +326,8 @@ pub struct Workspace {
     pub(super) wavelengths: Vec<Wavelengths>,
     /// By slot, a bit for each of the first emitters whose light is known where the path starts, and not to be gathered there.
     pub(super) known: Vec<u64>,
+    /// By slot, where light was last gathered; of no meaning unless emitters are chosen by importance.
+    pub(super) receiving: Vec<Receiving>,
     /// By slot.
     pub(super) luggage: Vec<Luggage>,
     pub(super) hits: HitBatch,

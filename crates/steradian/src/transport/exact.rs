@@ -15,7 +15,8 @@ use crate::sensor::FluxOf;
 use crate::shape::Placed;
 use crate::spectrum::{MAX_LANES, Wavelengths};
 
-/// Irradiance by lights without extent, E = Σ E_n cosθ · V, by column; scalar irradiance Σ E_n · V without a normal.
+/// Irradiance by lights without extent, E = Σ E_n cosθ · V, by column; scalar irradiance Σ E_n · V without a normal. Of more
+/// lights than [are summed](super::tables::SUMMED_LIGHTS) it knows nothing.
 pub(super) fn irradiance(
     tables: &Tables<'_>,
     point: Point,
@@ -25,6 +26,9 @@ pub(super) fn irradiance(
     let scene = tables.scene;
     let count = scene.lanes().count();
     let mut columns = vec![0.0; scene.columns()];
+    if !tables.sums_lights() {
+        return columns;
+    }
     let mut shadows = Vec::new();
     let mut rays = RayBatch::default();
     for light in scene.lights().iter().filter(|light| light.is_delta()) {

@@ -12,7 +12,7 @@ use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter;
 use super::scattering::{self, Encounter};
-use super::tables::{Candidates, Model, Receiver, Tables};
+use super::tables::{Candidates, Choice, Model, Receiver, Tables};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
 use crate::sampling::{block, hash, warp};
 use crate::scene::Scene;
@@ -49,17 +49,19 @@ pub(super) struct Meters<'a> {
 #[derive(Copy, Clone, PartialEq, Eq)]
 enum Mode {
     Hemisphere { delta: bool },
-    Sphere,
+    Sphere { delta: bool },
     Surface,
     Ray,
 }
 
 impl Meter<'_> {
-    fn mode(&self) -> Mode {
+    /// With `sums_lights` points know the light of lights without extent.
+    fn mode(&self, sums_lights: bool) -> Mode {
+        let delta = !sums_lights;
         match self {
-            Meter::Irradiance { .. } => Mode::Hemisphere { delta: false },
+            Meter::Irradiance { .. } => Mode::Hemisphere { delta },
             Meter::Flux(_) => Mode::Hemisphere { delta: true },
-            Meter::Scalar { .. } => Mode::Sphere,
+            Meter::Scalar { .. } => Mode::Sphere { delta },
             Meter::Surface(_) => Mode::Surface,
             Meter::Ray { .. } => Mode::Ray,
         }
@@ -124,7 +126,7 @@ impl<'a> Meters<'a> {
                 self.tracer.follow(paths, 1, tables.for_surfaces());
             }
             Mode::Ray => self.tracer.follow(paths, 0, tables.for_surfaces()),
-            Mode::Sphere => self.look(paths, tables.for_meters(false, Receiver::Scalar)),
+            Mode::Sphere { delta } => self.look(paths, tables.for_meters(delta, Receiver::Scalar)),
             Mode::Hemisphere { delta } => {
                 let encounters = std::mem::take(&mut paths.encounters);
                 self.look(paths, tables.for_meters(delta, Receiver::Irradiance));
@@ -151,18 +153,20 @@ impl<'a> Meters<'a> {
             tracer: &self.tracer,
             candidates,
         };
-        if candidates.all {
-            for emitter in 0..candidates.count {
-                scatter::fill(
-                    &self.tracer,
-                    &paths.vertices.identity,
-                    LIGHT_BLOCK + emitter as u32,
-                    &mut paths.uniforms,
-                );
-                next_event.gather_from(paths, emitter);
+        let fill = |number: u32, paths: &mut Workspace| {
+            let (identity, uniforms) = (&paths.vertices.identity, &mut paths.uniforms);
+            scatter::fill(&self.tracer, identity, LIGHT_BLOCK + number, uniforms);
+        };
+        if let Choice::ByImportance { samples } = candidates.choice {
+            for stratum in 0..samples {
+                fill(stratum, paths);
+                next_event.gather_stratum(paths, (stratum, samples));
             }
         } else {
-            next_event.gather(paths);
+            for emitter in 0..candidates.count {
+                fill(emitter as u32, paths);
+                next_event.gather_from(paths, emitter);
+            }
         }
         scatter::fill(
             &self.tracer,
@@ -356,7 +360,8 @@ impl Integrand for Meters<'_> {
         self.tracer.begin(&mut workspace.paths, count);
         workspace.sign.clear();
         workspace.sign.resize(count, 1.0);
-        let mode = |run: &Run| self.streams[run.stream as usize].meter.mode();
+        let sums_lights = self.tracer.tables.sums_lights();
+        let mode = |run: &Run| self.streams[run.stream as usize].meter.mode(sums_lights);
         let mut slot = 0;
         let mut alike: Vec<(usize, Run)> = Vec::new();
         for run in batch.runs {

@@ -7,7 +7,7 @@
 //! | flux | uniform over the surface, then cosθ/π | πA |
 //! | radiance | the surface that the ray meets | 1 |
 //!
-//! A point sees lights without extent exactly: E = Σ I cosθ/r² · V in f64, with no sampling error; so it does those extended lights
+//! A point sees up to 1024 lights without extent exactly: E = Σ I cosθ/r² · V in f64, with no sampling error; so it does those extended lights
 //! that nothing [may hide](super::shaft). A ray sees the emission of the surface it meets exactly. What surfaces reflect is
 //! sampled.
 
@@ -141,12 +141,15 @@ impl<'t, 'a> Context<'t, 'a> {
         (0..self.scene.lanes().count()).map(reflects).collect()
     }
 
-    /// Columns of which a point receives nothing but what is known exactly: lights without extent, and these emitters.
+    /// Columns of which a point receives nothing but what is known exactly: lights without extent where they are summed, and these
+    /// emitters.
     fn closed_at(&self, known: u64) -> Vec<bool> {
         let emitters = self.tables.emitters.iter().enumerate();
         let mut of_emitters = vec![false; self.scene.lights().len()];
+        let sums_lights = self.tables.sums_lights();
         emitters.for_each(|(number, emitter)| {
-            of_emitters[emitter.light] = emitter.shape.is_delta() || is_known(known, number);
+            let summed = sums_lights && emitter.shape.is_delta();
+            of_emitters[emitter.light] = summed || is_known(known, number);
         });
         self.columns_where(|(light, channel)| self.reflected[light][channel] || !of_emitters[light])
     }
@@ -189,6 +192,7 @@ impl<'t, 'a> Context<'t, 'a> {
         let plane = (receiver.position, receiver.normal);
         self.samples_points(closed)
             && !(self.tables.environment.is_empty()
+                && self.tables.sums_lights()
                 && surfaces.nothing_above(plane.0, plane.1, clearance, &is_dark))
     }
 

@@ -16,14 +16,16 @@ use std::f32::consts::{FRAC_1_PI, PI, TAU};
 use glam::Vec3;
 
 use super::aim::{Aim, is_aimed_at};
+use super::choice::{Sampled, by_power, choose};
 use super::columns::{Place, Shadows, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::Hit;
+use super::light_tree::Receiving;
 use super::media::AIR;
 use super::panel::{Panel, SamplePanel};
 use super::path::Tracer;
 use super::profile::Stage;
-use super::tables::{Candidates, EmitterShape, Receiver, Tables};
+use super::tables::{Candidates, Choice, EmitterShape, Receiver, Tables};
 use super::towards::{cone, towards};
 
 /// One pass over the vertices of a batch.
@@ -43,21 +45,65 @@ impl NextEvent<'_> {
         workspace.shadows.reset(count);
         let (vertices, shadows) = (&workspace.vertices, &mut workspace.shadows);
         let numbers = [&vertices.light_u[..], &vertices.light_v[..]];
-        if self.candidates.count == 1 {
+        if let Choice::ByImportance { .. } = self.candidates.choice {
+            let places = (&workspace.known[..], &mut workspace.receiving[..]);
+            self.sample_chosen(vertices, places, numbers, (0, 1), shadows);
+        } else if self.candidates.count == 1 {
             self.sample_all(0, (vertices, &workspace.known), numbers, shadows);
         } else {
             for i in 0..count {
-                let (emitter, u) = choose(self.tracer.tables, self.candidates, numbers[0][i]);
-                let u = [u, numbers[1][i]];
-                if self.candidates.receiver == Receiver::Surface {
-                    self.sample(i, emitter, u, vertices, shadows);
-                } else {
-                    let mut aimed = Aimed::at(self, emitter);
-                    aimed.sample(i, u, (vertices, &workspace.known), shadows);
-                }
+                let (sampled, u) = by_power(self.tracer.tables, self.candidates, numbers[0][i]);
+                self.sample(i, sampled, [u, numbers[1][i]], vertices, shadows);
             }
         }
         self.settle(workspace);
+    }
+
+    /// Samples an emitter chosen by importance at every meter, with the last two columns of uniform numbers, of which the first is of this
+    /// one of so many strata.
+    pub fn gather_stratum(&self, workspace: &mut Workspace, stratum: (u32, u32)) {
+        workspace.shadows.reset(workspace.vertices.len());
+        let numbers = [&workspace.uniforms[2][..], &workspace.uniforms[3][..]];
+        let places = (&workspace.known[..], &mut workspace.receiving[..]);
+        let (vertices, shadows) = (&workspace.vertices, &mut workspace.shadows);
+        self.sample_chosen(vertices, places, numbers, stratum, shadows);
+        self.settle(workspace);
+    }
+
+    fn sample_chosen(
+        &self,
+        vertices: &Vertices,
+        (known, receiving): (&[u64], &mut [Receiving]),
+        numbers: [&[f32]; 2],
+        stratum: (u32, u32),
+        shadows: &mut Shadows,
+    ) {
+        for i in 0..vertices.len() {
+            let at = self.receiving(&vertices.place(i));
+            receiving[vertices.identity.slot[i] as usize] = at;
+            let [u, v] = numbers.map(|column| column[i]);
+            let Some((sampled, u)) = choose(
+                self.tracer.tables,
+                self.candidates,
+                ([u, v], stratum),
+                || at,
+            ) else {
+                continue;
+            };
+            if self.candidates.receiver == Receiver::Surface {
+                self.sample(i, sampled, [u, v], vertices, shadows);
+            } else {
+                Aimed::at(self, sampled).sample(i, [u, v], (vertices, known), shadows);
+            }
+        }
+    }
+
+    /// What the choice of an emitter knows of a place.
+    fn receiving(&self, place: &Place) -> Receiving {
+        Receiving {
+            point: Vec3::from_array(place.point),
+            normal: (!self.is_spherical()).then(|| Vec3::from_array(place.normal)),
+        }
     }
 
     /// Samples one given emitter at every meter, with the last two columns of uniform numbers.
@@ -81,8 +127,10 @@ impl NextEvent<'_> {
         shadows: &mut Shadows,
     ) {
         let tables = self.tracer.tables;
+        let rate = tables.rate_by_power(self.candidates, number);
+        let sampled = Sampled { number, rate };
         if self.candidates.receiver != Receiver::Surface {
-            let mut aimed = Aimed::at(self, number);
+            let mut aimed = Aimed::at(self, sampled);
             for i in 0..vertices.len() {
                 let u = [numbers[0][i], numbers[1][i]];
                 aimed.sample(i, u, (vertices, known), shadows);
@@ -104,18 +152,14 @@ impl NextEvent<'_> {
         ) {
             shadows.emitter.fill(number as u32);
             let (origin, edges, normal) = (*origin, *edges, *normal);
-            let (area, two_sided, probability) = (
-                *area,
-                emitter.two_sided,
-                tables.probability(self.candidates, number),
-            );
+            let (area, two_sided) = (*area, emitter.two_sided);
             let panel = Panel {
                 origin,
                 edges,
                 normal,
                 area,
                 two_sided,
-                probability,
+                probability: rate,
             };
             self.tracer.set.run(SamplePanel {
                 panel,
@@ -126,7 +170,13 @@ impl NextEvent<'_> {
             return;
         }
         for i in 0..vertices.len() {
-            self.sample(i, number, [numbers[0][i], numbers[1][i]], vertices, shadows);
+            self.sample(
+                i,
+                sampled,
+                [numbers[0][i], numbers[1][i]],
+                vertices,
+                shadows,
+            );
         }
     }
 
@@ -147,7 +197,7 @@ impl NextEvent<'_> {
     pub(super) fn sample(
         &self,
         i: usize,
-        number: usize,
+        Sampled { number, rate }: Sampled,
         u: [f32; 2],
         vertices: &Vertices,
         shadows: &mut Shadows,
@@ -166,10 +216,8 @@ impl NextEvent<'_> {
         if foreshortening <= 0.0 {
             return;
         }
-        let probability = self.tracer.tables.probability(self.candidates, number);
-        let ratio = own_density / (towards.density * probability);
-        shadows.gain[i] =
-            foreshortening * towards.per_power / (probability * (1.0 + ratio * ratio));
+        let ratio = own_density / (towards.density * rate);
+        shadows.gain[i] = foreshortening * towards.per_power / (rate * (1.0 + ratio * ratio));
         shadows.emitter[i] = number as u32;
         shadows.numbers[i] = u;
         let start = Vec3::from_array(self.start(&place));
@@ -242,49 +290,53 @@ impl NextEvent<'_> {
         workspace.watch.lap(Stage::Shadows);
     }
 
-    /// Density with which a hit on an emitter would have been sampled from the ray's origin.
-    pub fn density(tables: &Tables, emitter: u32, hit: &Hit, candidates: Candidates) -> f32 {
-        let probability = tables.probability(candidates, emitter as usize);
+    /// Density with which a hit on an emitter would have been sampled from the ray's origin, which received light as told.
+    pub fn density(
+        tables: &Tables,
+        emitter: u32,
+        hit: &Hit,
+        (candidates, at): (Candidates, &Receiving),
+    ) -> f32 {
+        let rate = tables.rate(candidates, emitter as usize, || *at);
         let emitter = &tables.emitters[emitter as usize];
         let by_area = |area: f32| hit.distance_squared / (area * hit.cos_theta);
-        probability
-            * match &emitter.shape {
-                EmitterShape::Parallelogram { area, .. }
-                | EmitterShape::Triangles { area, .. }
-                | EmitterShape::Disc { area, .. } => by_area(*area),
-                EmitterShape::Sphere {
-                    center,
-                    radius,
-                    ports,
-                    ..
-                } => {
-                    let axis = Vec3::from_array(*center) - Vec3::from_array(hit.origin);
-                    match cone(axis, *radius, ports.is_empty()) {
-                        Some(one_minus_cos) => 1.0 / (TAU * one_minus_cos),
-                        None => by_area(4.0 * PI * radius * radius),
-                    }
+        rate * match &emitter.shape {
+            EmitterShape::Parallelogram { area, .. }
+            | EmitterShape::Triangles { area, .. }
+            | EmitterShape::Disc { area, .. } => by_area(*area),
+            EmitterShape::Sphere {
+                center,
+                radius,
+                ports,
+                ..
+            } => {
+                let axis = Vec3::from_array(*center) - Vec3::from_array(hit.origin);
+                match cone(axis, *radius, ports.is_empty()) {
+                    Some(one_minus_cos) => 1.0 / (TAU * one_minus_cos),
+                    None => by_area(4.0 * PI * radius * radius),
                 }
-                EmitterShape::Point { .. }
-                | EmitterShape::Spot { .. }
-                | EmitterShape::Directional { .. }
-                | EmitterShape::Luminaire { .. } => 0.0,
             }
+            EmitterShape::Point { .. }
+            | EmitterShape::Spot { .. }
+            | EmitterShape::Directional { .. }
+            | EmitterShape::Luminaire { .. } => 0.0,
+        }
     }
 }
 
 /// One emitter at meters.
 struct Aimed<'a> {
     pass: &'a NextEvent<'a>,
-    number: usize,
+    sampled: Sampled,
     /// The last meter: a stream's samples are all taken at the same one.
     last: Option<(Place, Aim)>,
 }
 
 impl<'a> Aimed<'a> {
-    fn at(pass: &'a NextEvent<'a>, number: usize) -> Self {
+    fn at(pass: &'a NextEvent<'a>, sampled: Sampled) -> Self {
         Self {
             pass,
-            number,
+            sampled,
             last: None,
         }
     }
@@ -298,14 +350,14 @@ impl<'a> Aimed<'a> {
         shadows: &mut Shadows,
     ) {
         let slot = vertices.identity.slot[i] as usize;
-        if is_known(known[slot], self.number) {
+        if is_known(known[slot], self.sampled.number) {
             return;
         }
         let place = vertices.place(i);
         let tables = self.pass.tracer.tables;
-        let emitter = &tables.emitters[self.number];
+        let emitter = &tables.emitters[self.sampled.number];
         if !is_aimed_at(tables, emitter, self.pass.start(&place)) {
-            self.pass.sample(i, self.number, u, vertices, shadows);
+            self.pass.sample(i, self.sampled, u, vertices, shadows);
             return;
         }
         if !matches!(&self.last, Some((last, _)) if *last == place) {
@@ -321,37 +373,12 @@ impl<'a> Aimed<'a> {
         let Some(end) = aim.sample(place, u) else {
             return;
         };
-        let probability = self
-            .pass
-            .tracer
-            .tables
-            .probability(self.pass.candidates, self.number);
-        shadows.gain[i] = aim.weight() as f32 / probability;
-        shadows.emitter[i] = self.number as u32;
+        shadows.gain[i] = aim.weight() as f32 / self.sampled.rate;
+        shadows.emitter[i] = self.sampled.number as u32;
         shadows.numbers[i] = u;
         let start = Vec3::from_array(self.pass.start(place));
         shadows.rays.set(i, start.into(), (end - start).into(), 1.0);
     }
-}
-
-/// An emitter by power, and the number that is left to use.
-pub(super) fn choose(tables: &Tables, candidates: Candidates, u: f32) -> (usize, f32) {
-    let count = candidates.count;
-    if count == 1 {
-        return (0, u);
-    }
-    let u = u * tables.cumulative[count - 1];
-    let index = tables
-        .cumulative
-        .partition_point(|sum| *sum <= u)
-        .min(count - 1);
-    let before = if index == 0 {
-        0.0
-    } else {
-        tables.cumulative[index - 1]
-    };
-    let rest = (u - before) / tables.emitters[index].probability;
-    (index, rest.clamp(0.0, 1.0 - 0.5 * f32::EPSILON))
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ use super::aim::is_aimed_at;
 use super::columns::{BATCH, Flights, Luggage, Place, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::{Hit, hit};
+use super::light_tree::Receiving;
 use super::media::AIR;
 use super::next_event::NextEvent;
 use super::profile::Stage;
@@ -66,6 +67,8 @@ impl Tracer<'_> {
         workspace.known.resize(slots, 0);
         workspace.wavelengths.clear();
         workspace.wavelengths.resize(slots, Wavelengths::default());
+        workspace.receiving.clear();
+        workspace.receiving.resize(slots, Receiving::default());
         workspace.luggage.clear();
         workspace.luggage.resize(slots, Luggage::NONE);
         workspace.flights.clear();
@@ -137,7 +140,7 @@ impl Tracer<'_> {
                     side,
                     &hit,
                     workspace.flights.pdf[i],
-                    candidates,
+                    (candidates, &workspace.receiving[slot as usize]),
                     workspace.known[slot as usize],
                 ) * tables.factor_of(side, hit.viewer);
                 let radiance = tables.lanes_at(&side.radiance, wavelengths, || tables.site(&hit));
@@ -269,7 +272,7 @@ impl Tracer<'_> {
         side: &Side,
         hit: &Hit,
         pdf: f32,
-        candidates: Candidates,
+        (candidates, at): (Candidates, &Receiving),
         known: u64,
     ) -> f32 {
         if side.emitter == NO_EMITTER {
@@ -285,7 +288,7 @@ impl Tracer<'_> {
         {
             return 0.0;
         }
-        let ratio = NextEvent::density(self.tables, side.emitter, hit, candidates) / pdf;
+        let ratio = NextEvent::density(self.tables, side.emitter, hit, (candidates, at)) / pdf;
         1.0 / (1.0 + ratio * ratio)
     }
 

@@ -19,9 +19,11 @@ use std::borrow::Cow;
 
 use glam::Vec3;
 
+use super::choice::choose;
 use super::columns::{Flight, Flights, Luggage, Place, Shadows, Vertices, Workspace};
 use super::interaction::Hit;
-use super::next_event::{NextEvent, choose};
+use super::light_tree::Receiving;
+use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter::survives;
 use super::tables::{Lanes4, Side, Tables};
@@ -92,6 +94,7 @@ pub(super) fn scatter(tracer: &Tracer, workspace: &mut Workspace, segment: u32) 
         let Some(surface) = Surface::new(tracer.tables, encounter, &wavelengths) else {
             continue;
         };
+        workspace.receiving[slot] = surface.receiving();
         let luggage = &mut workspace.luggage[slot];
         let lit = (&mut workspace.lit, &mut workspace.shadows);
         surface.light(tracer, (luggage, &wavelengths), lit);
@@ -151,16 +154,20 @@ impl<'a> Surface<'a> {
             return;
         }
         let (place, [u, v]) = (&self.encounter.place, self.encounter.light);
-        let (number, u) = choose(tables, candidates, u);
-        let Some(towards) = towards(tables, &tables.emitters[number], place, [u, v]) else {
+        let Some((sampled, u)) = choose(tables, candidates, ([u, v], (0, 1)), || self.receiving())
+        else {
+            return;
+        };
+        let emitter = &tables.emitters[sampled.number];
+        let Some(towards) = towards(tables, emitter, place, [u, v]) else {
             return;
         };
         let Some((value, own_density, beyond)) = self.towards(towards.direction) else {
             return;
         };
-        let probability = tables.probability(candidates, number);
-        let ratio = own_density / f64::from(towards.density * probability);
-        let gain = f64::from(towards.per_power) / (f64::from(probability) * (1.0 + ratio * ratio));
+        let rate = sampled.rate;
+        let ratio = own_density / f64::from(towards.density * rate);
+        let gain = f64::from(towards.per_power) / (f64::from(rate) * (1.0 + ratio * ratio));
         let start = self.start(beyond);
         let (span, reach) = if towards.infinite {
             (towards.direction, f32::INFINITY)
@@ -174,7 +181,16 @@ impl<'a> Surface<'a> {
         });
         lit.push(*place, response, self.encounter.identity, [u, v]);
         let ray = (start, span.into(), reach);
-        shadows.push(ray, gain as f32, number as u32, [u, v]);
+        shadows.push(ray, gain as f32, sampled.number as u32, [u, v]);
+    }
+
+    /// What the choice of a light knows of this place: light from behind counts where it goes through.
+    fn receiving(&self) -> Receiving {
+        let place = &self.encounter.place;
+        Receiving {
+            point: Vec3::from_array(place.point),
+            normal: (!self.side.transmits).then(|| Vec3::from_array(place.normal)),
+        }
     }
 
     /// ρ |cosθ_i| and the density of a direction, and whether it leads through the surface; `None` if nothing comes from

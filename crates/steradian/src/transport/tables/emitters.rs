@@ -1,4 +1,4 @@
-//! Emitters: the lights that next-event estimation samples, and how likely each is chosen.
+//! Emitters: the lights that next-event estimation samples, and how likely each is chosen by power.
 
 use super::outlines::outline;
 use super::{Emitter, EmitterShape, NO_EMITTER, Tinted};
@@ -122,8 +122,8 @@ fn sphere_shape(sphere: &Sphere, center: [f32; 3]) -> EmitterShape {
     }
 }
 
-/// Sets each emitter's probability in proportion to its power; returns the cumulative ones.
-pub(super) fn choose_by_power(scene: &Scene, emitters: &mut [Emitter], tints: &[Tint]) -> Vec<f32> {
+/// Radiance, intensity or irradiance of each emitter in watts, over all lanes and wavelengths.
+pub(super) fn strengths(scene: &Scene, emitters: &[Emitter], tints: &[Tint]) -> Vec<f64> {
     let lanes = scene.lanes();
     // By wavelength the lanes of a light are all alike.
     let weights = if lanes.is_spectral() {
@@ -131,19 +131,31 @@ pub(super) fn choose_by_power(scene: &Scene, emitters: &mut [Emitter], tints: &[
     } else {
         lanes.radiant_weights()
     };
-    let extent = scene
-        .surfaces()
-        .bounds()
-        .map_or(1.0, |bounds| bounds.diagonal().to_metres());
-    let power = |emitter: &Emitter| -> f64 {
+    let strength = |emitter: &Emitter| {
         let lanes: f64 = weights
             .iter()
             .zip(&emitter.power.lanes)
             .map(|(w, x)| w * f64::from(*x))
             .sum();
-        lanes * emitter.power_factor(scene, extent) * emitter.spectral_power(scene, tints)
+        lanes * emitter.spectral_power(scene, tints)
     };
-    let powers: Vec<f64> = emitters.iter().map(power).collect();
+    emitters.iter().map(strength).collect()
+}
+
+/// Sets each emitter's probability in proportion to its power; returns the cumulative ones.
+pub(super) fn choose_by_power(
+    scene: &Scene,
+    emitters: &mut [Emitter],
+    strengths: &[f64],
+) -> Vec<f32> {
+    let extent = scene
+        .surfaces()
+        .bounds()
+        .map_or(1.0, |bounds| bounds.diagonal().to_metres());
+    let pairs = emitters.iter().zip(strengths);
+    let powers: Vec<f64> = pairs
+        .map(|(emitter, strength)| strength * emitter.power_factor(scene, extent))
+        .collect();
     let total: f64 = powers.iter().sum();
     let mut sum = 0.0;
     let count = emitters.len() as f64;

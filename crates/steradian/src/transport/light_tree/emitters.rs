@@ -1,0 +1,170 @@
+//! The bounds of each kind of emitter.
+
+use std::collections::HashMap;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::bounds::{Bounds, Cone};
+use crate::light::{Beam, FarField, Kind, LuminaireLight, Planes};
+use crate::scene::Scene;
+use crate::transport::tables::{Emitter, EmitterShape};
+
+/// Bounds of an emitter whose radiance or intensity is `strength` watts (of a luminaire: per 1 of its table); none of light from infinitely
+/// far away.
+pub(super) fn bounds(
+    scene: &Scene,
+    emitter: &Emitter,
+    strength: f64,
+    beams: &mut Beams,
+) -> Option<Bounds> {
+    let bounds = evenly(scene, emitter, strength)?;
+    let Kind::Luminaire(luminaire) = &scene.lights()[emitter.light].kind else {
+        return Some(bounds);
+    };
+    Some(Bounds {
+        cone: beams.cone(luminaire),
+        intensity: strength * luminaire.far_field.peak()[2],
+        ..bounds
+    })
+}
+
+/// The same of an emitter whose power is the same in all directions.
+fn evenly(scene: &Scene, emitter: &Emitter, strength: f64) -> Option<Bounds> {
+    let one_sided = |cone: Cone| match emitter.two_sided {
+        true => Cone::EVERYWHERE,
+        false => cone,
+    };
+    match &emitter.shape {
+        EmitterShape::Parallelogram {
+            origin,
+            edges,
+            normal,
+            area,
+        } => {
+            let [a, b] = edges.map(double);
+            let corners = [DVec3::ZERO, a, b, a + b].map(|corner| double(*origin) + corner);
+            let cone = Cone::of_normal(double(*normal));
+            Bounds::around(corners, one_sided(cone), strength * f64::from(*area))
+        }
+        EmitterShape::Triangles {
+            first, cumulative, ..
+        } => {
+            let triangles = (0..cumulative.len()).filter_map(|k| {
+                let mut bounds = triangle(scene, *first as usize + k, strength)?;
+                bounds.cone = one_sided(bounds.cone);
+                Some(bounds)
+            });
+            triangles.reduce(Bounds::union)
+        }
+        EmitterShape::Sphere { center, radius, .. } => {
+            let (center, radius) = (double(*center), f64::from(*radius));
+            let corners = [center - radius, center + radius];
+            Bounds::around(corners, Cone::EVERYWHERE, strength * PI * radius * radius)
+        }
+        EmitterShape::Disc {
+            center,
+            normal,
+            axes,
+            outer,
+            area,
+            ..
+        } => {
+            let (center, outer) = (double(*center), f64::from(*outer));
+            let [a, b] = axes.map(double);
+            // Of a circle the box reaches along each axis as far as the root of the squares of its two diameters.
+            let reach = (a * a + b * b).map(f64::sqrt) * outer;
+            let cone = Cone::of_normal(double(*normal));
+            let corners = [center - reach, center + reach];
+            Bounds::around(corners, one_sided(cone), strength * f64::from(*area))
+        }
+        EmitterShape::Point { position } | EmitterShape::Luminaire { position, .. } => {
+            Bounds::around([double(*position)], Cone::EVERYWHERE, strength)
+        }
+        EmitterShape::Spot {
+            position,
+            axis,
+            beam,
+        } => Bounds::around(
+            [double(*position)],
+            beam_cone(double(*axis), beam),
+            strength,
+        ),
+        EmitterShape::Directional { .. } => None,
+    }
+}
+
+/// Of a triangle of the scene; none of one without area.
+fn triangle(scene: &Scene, number: usize, strength: f64) -> Option<Bounds> {
+    let record = &scene.surfaces().triangles()[number];
+    let (origin, [a, b]) = (double(record.origin), record.edges.map(double));
+    let area = 0.5 * a.cross(b).length();
+    let corners = [origin, origin + a, origin + b];
+    let cone = Cone::of_normal(double(record.normal));
+    (area > 0.0).then(|| Bounds::around(corners, cone, strength * area))?
+}
+
+/// cosⁿθ is below cosθ where n ≥ 1; any other beam is as bright as in its middle up to the cutoff.
+fn beam_cone(axis: DVec3, beam: &Beam) -> Cone {
+    let (spread, reach) = match *beam {
+        Beam::CosinePower {
+            exponent,
+            cos_cutoff,
+        } if exponent >= 1.0 => (0.0, libm::acos(cos_cutoff)),
+        Beam::CosinePower { cos_cutoff, .. }
+        | Beam::Uniform { cos_cutoff }
+        | Beam::Smooth { cos_cutoff, .. } => (libm::acos(cos_cutoff.clamp(-1.0, 1.0)), 0.0),
+    };
+    Cone {
+        axis,
+        spread,
+        reach,
+    }
+}
+
+/// θ_o and θ_e of tables of intensity about their aim, each found once.
+#[derive(Default)]
+pub(super) struct Beams(HashMap<*const FarField, [f64; 2]>);
+
+impl Beams {
+    fn cone(&mut self, luminaire: &LuminaireLight) -> Cone {
+        let table = &luminaire.far_field;
+        let entry = self.0.entry(Arc::as_ptr(table));
+        let [spread, reach] = *entry.or_insert_with(|| beam_of(table));
+        Cone {
+            axis: DVec3::from_array(luminaire.aim().to_array()),
+            spread,
+            reach,
+        }
+    }
+}
+
+/// The narrowest θ_o of a table about its aim.
+///
+/// Between nodes I is linear in the angle and below the cosine through both, which is concave up to θ_o + π/2; it ends at the node after the
+/// last one that shines. Only where planes meet in the aim are the angles of nodes those from the aim.
+fn beam_of(table: &FarField) -> [f64; 2] {
+    let ([azimuths, polars], peak) = (table.nodes(), table.peak()[2]);
+    if table.planes() != Planes::C || peak <= 0.0 {
+        return [PI, 0.0];
+    }
+    let greatest = |polar: f64| {
+        let around = azimuths.iter().map(|azimuth| table.at_angles(*azimuth, polar));
+        around.fold(0.0, f64::max)
+    };
+    let (mut spread, mut edge) = (0.0_f64, 0.0);
+    for (number, polar) in polars.iter().enumerate() {
+        let part = greatest(*polar) / peak;
+        if part > 0.0 {
+            spread = spread.max(polar - libm::acos(part.min(1.0)));
+            edge = polars.get(number + 1).copied().unwrap_or(*polar);
+        }
+    }
+    let spread = spread.max(edge - FRAC_PI_2);
+    [spread, (edge - spread).max(0.0)]
+}
+
+fn double(v: [f32; 3]) -> DVec3 {
+    DVec3::from_array(v.map(f64::from))
+}
