@@ -150,7 +150,9 @@ fn beam_of(table: &FarField) -> [f64; 2] {
         return [PI, 0.0];
     }
     let greatest = |polar: f64| {
-        let around = azimuths.iter().map(|azimuth| table.at_angles(*azimuth, polar));
+        let around = azimuths
+            .iter()
+            .map(|azimuth| table.at_angles(*azimuth, polar));
         around.fold(0.0, f64::max)
     };
     let (mut spread, mut edge) = (0.0_f64, 0.0);
@@ -167,4 +169,58 @@ fn beam_of(table: &FarField) -> [f64; 2] {
 
 fn double(v: [f32; 3]) -> DVec3 {
     DVec3::from_array(v.map(f64::from))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Direction;
+    use crate::sampling::testing::independent;
+    use crate::sampling::warp;
+
+    /// What a table gives in any direction is within its cone: a batwing that ends at 70°, one of light upwards only, a narrow beam.
+    #[test]
+    fn the_cone_of_a_table_bounds_it() {
+        let polars = [0.0, 30.0, 60.0, 65.0, 70.0, 180.0];
+        let tables = [
+            [
+                [3.0, 5.0, 9.0, 2.0, 0.0, 0.0],
+                [3.0, 4.0, 7.0, 4.0, 0.0, 0.0],
+            ],
+            [
+                [0.0, 0.0, 0.0, 0.0, 1.0, 4.0],
+                [0.0, 0.0, 0.0, 0.0, 2.0, 4.0],
+            ],
+            [
+                [9.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+                [9.0, 2.0, 0.0, 0.0, 0.0, 0.0],
+            ],
+        ];
+        for (values, widest) in tables.into_iter().zip([71.0, 181.0, 61.0]) {
+            let [a, b] = values;
+            let values = [a, b, a].concat();
+            let azimuths = [0.0, 180.0, 360.0];
+            let table = FarField::new(Planes::C, &azimuths, &polars, &values).unwrap();
+            let [spread, reach] = beam_of(&table);
+            assert!((spread + reach).to_degrees() < widest);
+            for [u, v] in independent(3, 20_000) {
+                let [x, y, z] = warp::sphere(u as f32, v as f32).map(f64::from);
+                let Ok(direction) = Direction::new(crate::geometry::Vector::new(x, y, z)) else {
+                    continue;
+                };
+                let beyond = libm::acos(-direction.z()) - spread;
+                let bound = match beyond > reach {
+                    true => 0.0,
+                    false => libm::cos(beyond.max(0.0)),
+                };
+                let intensity = table.intensity(direction) / table.peak()[2];
+                assert!(
+                    intensity <= bound + 1e-9,
+                    "{intensity} {bound} at {direction:?}"
+                );
+            }
+        }
+        let turned = FarField::new(Planes::B, &[0.0, 360.0], &[0.0, 180.0], &[1.0; 4]).unwrap();
+        assert_eq!(beam_of(&turned), [PI, 0.0]);
+    }
 }

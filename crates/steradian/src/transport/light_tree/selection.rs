@@ -47,7 +47,7 @@ impl Selection {
             .sum();
         let (mut sum, mut beams) = (0.0, Beams::default());
         let mut place = |(number, (emitter, strength)): (usize, (&Emitter, &f64))| match bounds(
-            scene, emitter, *strength,
+            scene, emitter, *strength, &mut beams,
         ) {
             Some(of_emitter) => {
                 lights.push(number as u32);
