@@ -302,6 +302,7 @@ fn glyph(character: char) -> [u8; DOTS] {
         'θ' => THETA,
         '−' | '–' => of('-'),
         '⁻' => raised(of('-')),
+        '₀' => of('0'),
         '₂' => of('2'),
         other => of(other),
     }
@@ -376,7 +377,7 @@ mod tests {
 
     #[test]
     fn units_and_angles_have_their_letters() {
-        for character in "ρθφω°²³¹·×−1/srmW".chars() {
+        for character in "ρθφω°²³¹₀·×±−1/srmW".chars() {
             assert_ne!(glyph(character), [0; DOTS], "{character}");
         }
     }

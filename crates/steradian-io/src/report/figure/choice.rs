@@ -1,6 +1,6 @@
 //! Which readings of a result a picture shows.
 
-use steradian::measurement::{Measurements, Reading};
+use steradian::measurement::{Measurements, Reading, Statistics};
 use steradian::sensor::Layout;
 
 /// The readings of one quantity of one sensor.
@@ -16,6 +16,8 @@ pub struct Subject {
     pub readings: Vec<Reading>,
     /// How the points lie side by side, if they are a grid.
     pub layout: Option<Layout>,
+    /// What the points have in common, if there are several.
+    pub statistics: Option<Statistics>,
 }
 
 impl Subject {
@@ -23,18 +25,23 @@ impl Subject {
     pub fn all(measurements: &Measurements) -> Vec<Self> {
         let readings = measurements.readings();
         let mut left = &readings[..];
+        let mut statistics = measurements.statistics().into_iter().peekable();
         let mut subjects = Vec::new();
         for sensor in &measurements.sensors {
             let (own, rest) = left.split_at(sensor.points.len() * sensor.quantities.len());
             left = rest;
             for (number, quantity) in sensor.quantities.iter().enumerate() {
                 let of_points = own.iter().skip(number).step_by(sensor.quantities.len());
+                let fits = |found: &Statistics| {
+                    found.sensor == sensor.name && found.quantity == quantity.name
+                };
                 subjects.push(Self {
                     sensor: sensor.name.clone(),
                     quantity: quantity.name.clone(),
                     unit: quantity.unit.clone(),
                     readings: of_points.cloned().collect(),
                     layout: sensor.layout,
+                    statistics: statistics.next_if(fits),
                 });
             }
         }

@@ -3,7 +3,6 @@
 use steradian::measurement::{Measurements, Reading};
 
 use super::choice::Subject;
-use crate::report::numbers::significant;
 use crate::report::plot::{Bar, HeatMap, PlotError, ShareBars};
 use crate::report::svg::Svg;
 use crate::report::table::with_unit;
@@ -119,9 +118,12 @@ fn mean(subject: &Subject) -> Row {
             with_unit(&single.estimate, &single.unit),
         ),
         _ => {
-            let value = significant(parts.iter().sum(), 4);
             let name = format!("{} (mean of {count})", subject.sensor);
-            (name, format!("{value} {}", subject.unit))
+            let mean = subject
+                .statistics
+                .as_ref()
+                .map(|found| with_unit(&found.mean, &found.unit));
+            (name, mean.unwrap_or_default())
         }
     };
     Row { name, parts, sum }
@@ -145,7 +147,7 @@ mod tests {
         let svg = drawn(2);
         for part in [
             ">a, b (mean of 2)<",
-            ">51.25 W/m2<",
+            ">51.2 ± 1.0 W/m2<",
             ">100 %<",
             ">lamp<",
             ">window<",

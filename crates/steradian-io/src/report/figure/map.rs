@@ -6,9 +6,10 @@ use steradian::sensor::Layout;
 
 use super::choice::Subject;
 use super::view::View;
-use crate::report::numbers::significant;
+use crate::report::numbers::estimate;
 use crate::report::plot::{Field, Isolines, Lattice, Plan, PlotError};
 use crate::report::svg::Svg;
+use crate::report::table::with_unit;
 
 /// The points of a sensor where they are, with their values.
 ///
@@ -86,15 +87,24 @@ fn lattice(layout: &Layout, view: &View) -> Lattice {
 
 /// What the points have in common.
 fn notes(subject: &Subject) -> Vec<String> {
-    let values = subject
-        .readings
-        .iter()
-        .map(|reading| reading.estimate.value);
-    let ends = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-        [low.min(x), high.max(x)]
-    });
-    let [low, high] = ends.map(|value| significant(value, 4));
-    vec![format!("min {low}, max {high} {}", subject.unit)]
+    let Some(found) = &subject.statistics else {
+        return Vec::new();
+    };
+    let unit = &found.unit;
+    let [least, greatest] =
+        [&found.min, &found.max].map(|extreme| with_unit(&extreme.estimate, unit));
+    let mut notes = vec![format!(
+        "mean {}, min {least}, max {greatest}",
+        with_unit(&found.mean, unit)
+    )];
+    let ratio = |name: &str, of: &Estimate| format!("{name} {}", estimate(of));
+    let uniformity = found.uniformity.iter().map(|of| ratio("U₀ = min/mean", of));
+    let diversity = found.diversity.iter().map(|of| ratio("min/max", of));
+    let ratios: Vec<String> = uniformity.chain(diversity).collect();
+    if !ratios.is_empty() {
+        notes.push(ratios.join(", "));
+    }
+    notes
 }
 
 #[cfg(test)]
@@ -118,7 +128,15 @@ mod tests {
         let subjects = Subject::all(&measurements);
         let drawing = plan(&measurements, &subjects[0], true).unwrap();
         let svg = drawing.finish();
-        for part in [">100<", ">2.50<", "a, b", "irradiance (W/m2)", "x (m)"] {
+        for part in [
+            ">100<",
+            ">2.50<",
+            "a, b",
+            "irradiance (W/m2)",
+            "x (m)",
+            "mean 51.2 ± 1.0 W/m2",
+            "U₀ = min/mean",
+        ] {
             assert!(svg.contains(part), "{part} is not in {svg}");
         }
         let lines = isolines(&measurements, &subjects[0], &[]);

@@ -3,6 +3,7 @@
 use super::markup::Markup;
 use crate::report::numbers::exact;
 use crate::report::run::{Run, SAMPLING_ERROR_ONLY};
+use crate::report::table;
 
 /// The name of the scene.
 pub(super) fn title(run: &Run<'_>) -> String {
@@ -63,6 +64,11 @@ pub(super) fn statements(main: &mut Markup, run: &Run<'_>) {
     });
     let left_out = "Not sampled, so that values are too low by what it carries:";
     notices(main, left_out, &measurements.unsampled);
+    notices(
+        main,
+        "Dimmed after the run:",
+        &table::relit(measurements).into_iter().collect::<Vec<_>>(),
+    );
     notices(main, "Warnings:", &measurements.warnings);
 }
 

@@ -28,6 +28,7 @@ pub(super) fn section(
     let id = anchor(number);
     section.element("section", &[("id", &id)], |section| {
         section.leaf("h2", &format!("{}: {}", subject.sensor, subject.quantity));
+        tables::statistics(section, run, subject);
         if let Some(plan) = plan {
             picture(section, plan, "Plan", subject, "The values where they were found.");
         }

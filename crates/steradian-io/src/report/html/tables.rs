@@ -1,6 +1,7 @@
 //! Tables of a page.
 
-use steradian::measurement::Reading;
+use steradian::estimation::Estimate;
+use steradian::measurement::{Extreme, Reading};
 
 use super::markup::Markup;
 use super::sensor::anchor;
@@ -11,6 +12,8 @@ use crate::report::table::with_unit;
 
 /// Longer tables of readings are folded.
 const MOST_ROWS: usize = 50;
+/// What stands for no value.
+const NONE: &str = "–";
 const NUMBER: [(&str, &str); 1] = [("class", "number")];
 
 /// A table with its caption and headings; columns from `numbers` on are flush right.
@@ -59,48 +62,98 @@ fn words(headings: &[&str]) -> Vec<String> {
 /// All sensors with links to their sections.
 pub(super) fn overview(main: &mut Markup, run: &Run<'_>, subjects: &[Subject]) {
     main.leaf("h2", "Results");
-    let headings = words(&["sensor", "quantity", "points", "least", "greatest"]);
-    let caption = format!("All sensors; ± {}", half_widths(run));
+    let headings = words(&[
+        "sensor",
+        "quantity",
+        "points",
+        "mean",
+        "min",
+        "max",
+        "U₀ = min/mean",
+        "U_d = min/max",
+    ]);
+    let caption = format!(
+        "Mean, least and greatest reading of each sensor; ± {}",
+        half_widths(run)
+    );
     table(main, &caption, &headings, 2, |body| {
         for (number, subject) in subjects.iter().enumerate() {
             let link = format!("#{}", anchor(number));
             let heading = |cell: &mut Markup| {
                 cell.element("a", &[("href", &link)], |a| a.words(&subject.sensor));
             };
-            let [least, greatest] = extremes(subject);
-            let of = |reading: &Reading| with_unit(&reading.estimate, &reading.unit);
-            let count = subject.readings.len().to_string();
-            let cells = [subject.quantity.clone(), count, of(least), of(greatest)];
-            row(body, heading, &cells, 2);
+            row(body, heading, &overview_cells(subject), 2);
         }
     });
+}
+
+fn overview_cells(subject: &Subject) -> Vec<String> {
+    let count = subject.readings.len().to_string();
+    let with_unit = |value: &Estimate| with_unit(value, &subject.unit);
+    let first = [subject.quantity.clone(), count];
+    let others = match &subject.statistics {
+        None => {
+            let single = with_unit(&subject.readings[0].estimate);
+            [single, NONE.into(), NONE.into(), NONE.into(), NONE.into()]
+        }
+        Some(found) => {
+            let ratio =
+                |ratio: &Option<Estimate>| ratio.as_ref().map_or_else(|| NONE.to_owned(), estimate);
+            [
+                with_unit(&found.mean),
+                with_unit(&found.min.estimate),
+                with_unit(&found.max.estimate),
+                ratio(&found.uniformity),
+                ratio(&found.diversity),
+            ]
+        }
+    };
+    first.into_iter().chain(others).collect()
+}
+
+/// The statistics of a sensor with several points, and where its extremes are.
+pub(super) fn statistics(section: &mut Markup, run: &Run<'_>, subject: &Subject) {
+    let Some(found) = &subject.statistics else {
+        return;
+    };
+    let caption = format!(
+        "{} points; ± {}. Minimum and maximum of noisy readings are biased outwards.",
+        found.points,
+        half_widths(run)
+    );
+    let headings = words(&["", "value", "where (m)"]);
+    let value = |value: &Estimate| with_unit(value, &found.unit);
+    let at = |extreme: &Extreme| {
+        let place = extreme.position.map_or_else(|| NONE.to_owned(), place);
+        format!("point {} at {place}", extreme.index)
+    };
+    let mut rows = vec![
+        ("mean", value(&found.mean), String::new()),
+        ("min", value(&found.min.estimate), at(&found.min)),
+        ("max", value(&found.max.estimate), at(&found.max)),
+    ];
+    let ratios = [
+        ("U₀ = min/mean", &found.uniformity),
+        ("U_d = min/max", &found.diversity),
+    ];
+    let ratios = ratios
+        .into_iter()
+        .filter_map(|(name, ratio)| Some((name, estimate(ratio.as_ref()?), String::new())));
+    rows.extend(ratios);
+    table(section, &caption, &headings, 3, |body| {
+        for (name, value, place) in rows {
+            row(body, |cell| cell.words(name), &[value, place], 3);
+        }
+    });
+}
+
+fn place(position: [f64; 3]) -> String {
+    position.map(|x| significant(x, 6)).join(", ")
 }
 
 fn half_widths(run: &Run<'_>) -> String {
     let percent = exact(100.0 * run.measurements.confidence);
     format!("half-width of the {percent} % interval")
-}
-
-fn extremes(subject: &Subject) -> [&Reading; 2] {
-    let first = &subject.readings[0];
-    let value = |reading: &Reading| reading.estimate.value;
-    subject
-        .readings
-        .iter()
-        .fold([first, first], |[least, greatest], next| {
-            [
-                if value(next) < value(least) {
-                    next
-                } else {
-                    least
-                },
-                if value(next) > value(greatest) {
-                    next
-                } else {
-                    greatest
-                },
-            ]
-        })
 }
 
 /// What each light group gives, in the mean over the points.
@@ -125,7 +178,7 @@ pub(super) fn groups(section: &mut Markup, run: &Run<'_>, subject: &Subject) {
         for (number, name) in names.iter().enumerate() {
             let part = mean(&|reading| reading.groups[number].1.value);
             let share = match whole == 0.0 {
-                true => "–".to_owned(),
+                true => NONE.to_owned(),
                 false => format!("{} %", significant(100.0 * part / whole, 3)),
             };
             row(
@@ -177,7 +230,6 @@ fn reading_table(parent: &mut Markup, run: &Run<'_>, subject: &Subject) {
 }
 
 fn reading_cells(reading: &Reading, has_groups: bool) -> Vec<String> {
-    let place = |position: [f64; 3]| position.map(|x| significant(x, 6)).join(", ");
     let sits_on = reading.sits_on.as_ref();
     let mark = if reading.estimate.converged {
         ""
@@ -188,7 +240,7 @@ fn reading_cells(reading: &Reading, has_groups: bool) -> Vec<String> {
     let mut cells = vec![
         reading.position.map_or_else(|| "surface".to_owned(), place),
         sits_on.map_or_else(
-            || "–".to_owned(),
+            || NONE.to_owned(),
             |on| format!("{} ({})", on.shape, on.side),
         ),
         format!("{}{mark}", estimate(&reading.estimate)),
