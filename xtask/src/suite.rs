@@ -58,7 +58,8 @@ pub fn bench(root: &Path, filter: &[&str]) -> Result<(), String> {
     succeed(cargo(root, &["bench", "--package", "steradian-benches", "--"]).args(filter))
 }
 
-/// The documentation, with broken links refused; the course, whose commands must print what its lessons say.
+/// The documentation, with broken links refused; the course and the example of a lighting study, whose commands must print what
+/// their texts say.
 pub fn docs(root: &Path) -> Result<(), String> {
     let course = [
         "test",
@@ -67,7 +68,9 @@ pub fn docs(root: &Path) -> Result<(), String> {
         TESTS,
         "--test",
         "cli",
+        "--",
         "course",
+        "classroom",
     ];
     succeed(&mut cargo(root, &course))?;
     let pictures = [
