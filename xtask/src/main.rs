@@ -20,7 +20,7 @@ Usage: cargo xtask TASK
 
   test [--statistics]   everything a change must pass; --statistics runs the statistical tests at full count instead
   bench [FILTER]        the benchmarks
-  docs                  the documentation of the public interface; runs the commands of the course
+  docs                  the documentation of the public interface; runs the commands of the examples
   schema [--check]      write (or compare) the files generated from the scene file's table of keys
   layers                fail when a module uses one above it
   licences              fail when a dependency's licence is not a permissive one";

@@ -32,7 +32,7 @@ pub enum Contradiction {
         /// Cells of its grid.
         cells: u64,
     },
-    /// A point with other columns than lanes times groups, or without its samples.
+    /// A point with other columns than lanes times groups.
     #[error(
         "point {index} of sensor `{sensor}` does not hold {columns} columns with their replicates"
     )]
@@ -95,10 +95,7 @@ impl Measurements {
 impl PointRecord {
     fn is_of(&self, columns: usize) -> bool {
         let replicates = self.replicates.as_ref();
-        let sampled = replicates.map_or_else(
-            || self.closed.iter().all(|closed| *closed),
-            |replicates: &Replicates| replicates.are_of(columns),
-        );
+        let sampled = replicates.is_none_or(|replicates: &Replicates| replicates.are_of(columns));
         self.exact.len() == columns && self.closed.len() == columns && sampled
     }
 }

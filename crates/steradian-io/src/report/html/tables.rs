@@ -213,36 +213,29 @@ fn reading_table(parent: &mut Markup, run: &Run<'_>, subject: &Subject) {
         _ => names.into_iter().cloned().collect(),
     };
     let value = format!("{} ({})", subject.quantity, subject.unit);
-    let headings = [words(&["point", "x, y, z (m)", "on"]), vec![value], names].concat();
+    let has_groups = !names.is_empty();
+    let headings = [words(&["point", "x, y, z (m)"]), vec![value], names].concat();
     let caption = format!("{}, ± {}", subject.unit, half_widths(run));
-    let has_groups = headings.len() > 4;
-    table(parent, &caption, &headings, 3, |body| {
+    table(parent, &caption, &headings, 2, |body| {
         for reading in &subject.readings {
             let cells = reading_cells(reading, has_groups);
-            row(
-                body,
-                |cell| cell.words(&reading.index.to_string()),
-                &cells,
-                3,
-            );
+            let number = reading.index.to_string();
+            row(body, |cell| cell.words(&number), &cells, 2);
         }
     });
 }
 
 fn reading_cells(reading: &Reading, has_groups: bool) -> Vec<String> {
     let sits_on = reading.sits_on.as_ref();
-    let mark = if reading.estimate.converged {
-        ""
-    } else {
-        " (not converged)"
+    let sits_on = sits_on.map(|on| format!(" on {} ({})", on.shape, on.side));
+    let at = reading.position.map_or_else(|| "surface".to_owned(), place);
+    let mark = match reading.estimate.converged {
+        true => "",
+        false => " (not converged)",
     };
     let groups = reading.groups.iter().filter(|_| has_groups);
     let mut cells = vec![
-        reading.position.map_or_else(|| "surface".to_owned(), place),
-        sits_on.map_or_else(
-            || NONE.to_owned(),
-            |on| format!("{} ({})", on.shape, on.side),
-        ),
+        at + &sits_on.unwrap_or_default(),
         format!("{}{mark}", estimate(&reading.estimate)),
     ];
     cells.extend(groups.map(|(_, part)| estimate(part)));

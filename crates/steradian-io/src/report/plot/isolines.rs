@@ -91,7 +91,17 @@ impl Isolines<'_> {
         } else {
             format!("{percent} %: the line lies here")
         };
-        vec![self.field.legend(), band, "calculation point".to_owned()]
+        let mut key = vec![self.field.legend(), band, "calculation point".to_owned()];
+        let [low, high] = self.field.ends();
+        let beyond = self
+            .levels
+            .iter()
+            .filter(|level| **level < low || high < **level);
+        let beyond: Vec<String> = beyond.map(|level| significant(*level, 6)).collect();
+        if !beyond.is_empty() {
+            key.push(format!("not reached: {}", beyond.join(", ")));
+        }
+        key
     }
 
     fn band(&self, map: &mut MapSheet, points: &Points, level: f64, colour: &str) {
@@ -328,6 +338,12 @@ mod tests {
                 "{level} is not in {svg}"
             );
         }
+    }
+
+    #[test]
+    fn levels_beyond_all_values_are_told() {
+        assert!(drawn(&[200.0, 40.0, 500.0]).contains(">not reached: 40, 500<"));
+        assert!(!drawn(&[200.0]).contains("not reached"));
     }
 
     #[test]
