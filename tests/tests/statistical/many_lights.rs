@@ -1,6 +1,7 @@
 //! Beyond ten lamps, few are sampled at each place, chosen by what they may give there: all together they give what they give ten at a
 //! time, each of which is sampled then. Beyond 1024 lamps without extent points sample those too.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use steradian::estimation::Estimate;
@@ -15,7 +16,7 @@ use steradian::scene::description::{
 use steradian::transport::MeasureOptions;
 use steradian_tests::measuring::{measured, samples};
 use steradian_tests::scenes::*;
-use steradian_tests::{Certainty, LARGEST_SCORE, certainty, score};
+use steradian_tests::{Certainty, LARGEST_SCORE, assert_same, certainty, score};
 
 const SIZE: Point = Point::new(6.0, 5.0, 3.0);
 const LAMPS: usize = 60;
@@ -141,6 +142,33 @@ fn all_lamps_give_the_sum_of_each_ten() {
             all.estimate.value
         );
         assert!(variance.sqrt() < 0.05 * sum, "{} is uncertain", all.sensor);
+    }
+}
+
+/// Corners of a polygon about half as wide as the room, near its back wall, with its front to the middle.
+fn corner(k: usize) -> Point {
+    let (sin, cos) = (k as f64 * TAU / CORNERS as f64).sin_cos();
+    p(3.0 + 1.5 * cos, 4.7 - 0.2 * sin, 1.4 + 1.2 * sin)
+}
+
+const CORNERS: usize = 40;
+
+/// A mesh of 38 triangles among eleven lamps gives what 38 lights of a triangle give.
+#[test]
+fn a_mesh_is_its_triangles() {
+    let options = samples(1 << 12);
+    let bright = |vertices| polygon(vertices).emitting(radiance(2.0));
+    let few = || lit_by(|k| k < 11);
+    let mut mesh = few();
+    mesh.shapes.push(bright((0..CORNERS).map(corner).collect()));
+    let mut parts = few();
+    let triangle = |k: usize| bright(vec![corner(0), corner(k), corner(k + 1)]);
+    parts.shapes.extend((1..CORNERS - 1).map(triangle));
+    let [mesh, parts] =
+        [(mesh, 20), (parts, 21)].map(|(scene, run)| readings(scene, run, &options));
+    for (mesh, parts) in mesh.iter().zip(&parts) {
+        assert!(mesh.estimate.std_error < 0.03 * mesh.estimate.value);
+        assert_same(&mesh.sensor, &mesh.estimate, &parts.estimate);
     }
 }
 

@@ -1,14 +1,29 @@
 //! Which emitter a place samples: by power where there are few, by what it may bring to the place where there are many.
 
+use super::columns::Place;
 use super::light_tree::Receiving;
 use super::tables::{Candidates, Choice, Tables};
+use super::towards::{Towards, towards, towards_triangle};
 use crate::sampling::hash;
 
 /// An emitter, and how many samples it gets in the mean.
 #[derive(Copy, Clone, Debug)]
 pub(super) struct Sampled {
     pub number: usize,
+    /// Which triangle of a mesh, where they are chosen.
+    pub triangle: Option<u32>,
     pub rate: f32,
+}
+
+impl Sampled {
+    /// A direction towards it.
+    pub fn towards(&self, tables: &Tables, place: &Place, u: [f32; 2]) -> Option<Towards> {
+        let emitter = &tables.emitters[self.number];
+        match self.triangle {
+            Some(triangle) => towards_triangle(tables, emitter, triangle, (place, u)),
+            None => towards(tables, emitter, place, u),
+        }
+    }
 }
 
 /// One of the candidates by power or by importance, and the number that is left to use; none where none may contribute.
@@ -29,6 +44,7 @@ pub(super) fn choose(
     let chosen = tables.selection(candidates)?.choose(&at(), u)?;
     let sampled = Sampled {
         number: chosen.emitter,
+        triangle: chosen.triangle,
         rate: samples as f32 * chosen.probability,
     };
     Some((sampled, chosen.u))
@@ -39,6 +55,7 @@ pub(super) fn by_power(tables: &Tables, candidates: Candidates, u: f32) -> (Samp
     let count = candidates.count;
     let sampled = |number| Sampled {
         number,
+        triangle: None,
         rate: tables.rate_by_power(candidates, number),
     };
     if count == 1 {

@@ -26,7 +26,7 @@ use super::panel::{Panel, SamplePanel};
 use super::path::Tracer;
 use super::profile::Stage;
 use super::tables::{Candidates, Choice, EmitterShape, Receiver, Tables};
-use super::towards::{cone, towards};
+use super::towards::cone;
 
 /// One pass over the vertices of a batch.
 pub(super) struct NextEvent<'a> {
@@ -128,7 +128,11 @@ impl NextEvent<'_> {
     ) {
         let tables = self.tracer.tables;
         let rate = tables.rate_by_power(self.candidates, number);
-        let sampled = Sampled { number, rate };
+        let sampled = Sampled {
+            number,
+            triangle: None,
+            rate,
+        };
         if self.candidates.receiver != Receiver::Surface {
             let mut aimed = Aimed::at(self, sampled);
             for i in 0..vertices.len() {
@@ -197,16 +201,16 @@ impl NextEvent<'_> {
     pub(super) fn sample(
         &self,
         i: usize,
-        Sampled { number, rate }: Sampled,
+        sampled: Sampled,
         u: [f32; 2],
         vertices: &Vertices,
         shadows: &mut Shadows,
     ) {
-        let emitter = &self.tracer.tables.emitters[number];
         let place = vertices.place(i);
-        let Some(towards) = towards(self.tracer.tables, emitter, &place, u) else {
+        let Some(towards) = sampled.towards(self.tracer.tables, &place, u) else {
             return;
         };
+        let Sampled { number, rate, .. } = sampled;
         let cos_theta = towards.direction.dot(Vec3::from_array(place.normal));
         let (foreshortening, own_density) = if self.is_spherical() {
             (1.0, 0.25 * FRAC_1_PI)
@@ -297,8 +301,9 @@ impl NextEvent<'_> {
         hit: &Hit,
         (candidates, at): (Candidates, &Receiving),
     ) -> f32 {
-        let rate = tables.rate(candidates, emitter as usize, || *at);
-        let emitter = &tables.emitters[emitter as usize];
+        let number = emitter as usize;
+        let emitter = &tables.emitters[number];
+        let rate = tables.rate(candidates, (number, hit.primitive), || *at);
         let by_area = |area: f32| hit.distance_squared / (area * hit.cos_theta);
         rate * match &emitter.shape {
             EmitterShape::Parallelogram { area, .. }

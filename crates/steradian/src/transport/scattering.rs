@@ -27,7 +27,6 @@ use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter::survives;
 use super::tables::{Lanes4, Side, Tables};
-use super::towards::towards;
 use crate::brdf::{Brdf, Scatter};
 use crate::geometry::{Direction, Frame, Vector};
 use crate::material::Site;
@@ -158,8 +157,7 @@ impl<'a> Surface<'a> {
         else {
             return;
         };
-        let emitter = &tables.emitters[sampled.number];
-        let Some(towards) = towards(tables, emitter, place, [u, v]) else {
+        let Some(towards) = sampled.towards(tables, place, [u, v]) else {
             return;
         };
         let Some((value, own_density, beyond)) = self.towards(towards.direction) else {

@@ -74,7 +74,11 @@ fn evenly_towards(
             cumulative,
             area,
         } => {
-            let (point, normal) = triangle_point(tables, *first, cumulative, u)?;
+            if cumulative.is_empty() {
+                return None;
+            }
+            let (index, within) = triangle_of(cumulative, u[0]);
+            let (point, normal) = triangle_point(tables, first + index as u32, [within, u[1]]);
             by_area(vertex, point, normal, *area, emitter.two_sided)
         }
         EmitterShape::Disc {
@@ -176,21 +180,27 @@ pub(super) fn clearance(point: [f32; 3], size: f32) -> f32 {
     (point[0].abs() + point[1].abs() + point[2].abs() + size) * (8.0 * 0.5 * f32::EPSILON) * 2.0
 }
 
-fn triangle_point(
+/// A direction towards a point of one triangle of a mesh, with the density that its points have by area of the whole mesh.
+pub(super) fn towards_triangle(
     tables: &Tables,
-    first: u32,
-    cumulative: &[f32],
-    u: [f32; 2],
-) -> Option<(Vec3, Vec3)> {
-    if cumulative.is_empty() {
+    emitter: &Emitter,
+    triangle: u32,
+    (place, u): (&Place, [f32; 2]),
+) -> Option<Towards> {
+    let EmitterShape::Triangles { first, area, .. } = &emitter.shape else {
         return None;
-    }
-    let (index, within) = triangle_of(cumulative, u[0]);
-    let record = &tables.scene.surfaces().triangles()[first as usize + index];
+    };
+    let (point, normal) = triangle_point(tables, first + triangle, u);
+    let vertex = Vec3::from_array(place.point);
+    by_area(vertex, point, normal, *area, emitter.two_sided)
+}
+
+fn triangle_point(tables: &Tables, number: u32, [u, v]: [f32; 2]) -> (Vec3, Vec3) {
+    let record = &tables.scene.surfaces().triangles()[number as usize];
     let [a, b] = record.edges.map(Vec3::from_array);
-    let root = within.sqrt();
-    let point = Vec3::from_array(record.origin) + a * (1.0 - root) + b * (u[1] * root);
-    Some((point, Vec3::from_array(record.normal)))
+    let root = u.sqrt();
+    let point = Vec3::from_array(record.origin) + a * (1.0 - root) + b * (v * root);
+    (point, Vec3::from_array(record.normal))
 }
 
 /// The triangle that a number chooses by area, and what is left of the number.

@@ -134,6 +134,14 @@ impl Bounds {
         }
     }
 
+    /// So many times as bright.
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            intensity: self.intensity * factor,
+            ..self
+        }
+    }
+
     pub fn center(&self) -> DVec3 {
         0.5 * (self.low + self.high)
     }

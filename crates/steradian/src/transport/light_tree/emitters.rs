@@ -11,6 +11,57 @@ use crate::light::{Beam, FarField, Kind, LuminaireLight, Planes};
 use crate::scene::Scene;
 use crate::transport::tables::{Emitter, EmitterShape};
 
+/// What a leaf of the tree stands for.
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Leaf {
+    pub emitter: u32,
+    /// One of the emitter's triangles, if it is not all of it.
+    pub triangle: Option<u32>,
+    /// Its part of the emitter's area.
+    pub share: f64,
+}
+
+/// The leaves of an emitter, with their bounds: its triangles, if they are many and shine alike.
+pub(super) fn leaves(
+    scene: &Scene,
+    (number, emitter): (usize, &Emitter),
+    strength: f64,
+    beams: &mut Beams,
+) -> Vec<(Leaf, Bounds)> {
+    let leaf = |triangle, share| Leaf {
+        emitter: number as u32,
+        triangle,
+        share,
+    };
+    match &emitter.shape {
+        EmitterShape::Triangles {
+            first,
+            cumulative,
+            area,
+        } if is_split(scene, emitter) => {
+            let of_triangle = |k: u32| {
+                let bounds = triangle(scene, first + k, emitter.two_sided);
+                let share = bounds.intensity / f64::from(*area);
+                (leaf(Some(k), share), bounds.times(strength))
+            };
+            (0..cumulative.len() as u32).map(of_triangle).collect()
+        }
+        _ => {
+            let whole = bounds(scene, emitter, strength, beams);
+            whole
+                .map(|bounds| (leaf(None, 1.0), bounds))
+                .into_iter()
+                .collect()
+        }
+    }
+}
+
+/// Whether the triangles of an emitter are leaves of their own: many of the same radiance, which nothing aims at as a whole.
+fn is_split(scene: &Scene, emitter: &Emitter) -> bool {
+    let kind = &scene.lights()[emitter.light].kind;
+    emitter.outline.is_none() && matches!(kind, Kind::Area(area) if area.textures.is_empty())
+}
+
 /// Bounds of an emitter whose radiance or intensity is `strength` watts (of a luminaire: per 1 of its table); none of light from infinitely
 /// far away.
 pub(super) fn bounds(
@@ -51,11 +102,8 @@ fn evenly(scene: &Scene, emitter: &Emitter, strength: f64) -> Option<Bounds> {
         EmitterShape::Triangles {
             first, cumulative, ..
         } => {
-            let triangles = (0..cumulative.len()).filter_map(|k| {
-                let mut bounds = triangle(scene, *first as usize + k, strength)?;
-                bounds.cone = one_sided(bounds.cone);
-                Some(bounds)
-            });
+            let triangles = (0..cumulative.len() as u32)
+                .map(|k| triangle(scene, first + k, emitter.two_sided).times(strength));
             triangles.reduce(Bounds::union)
         }
         EmitterShape::Sphere { center, radius, .. } => {
@@ -95,14 +143,22 @@ fn evenly(scene: &Scene, emitter: &Emitter, strength: f64) -> Option<Bounds> {
     }
 }
 
-/// Of a triangle of the scene; none of one without area.
-fn triangle(scene: &Scene, number: usize, strength: f64) -> Option<Bounds> {
-    let record = &scene.surfaces().triangles()[number];
+/// Of a triangle of the scene, per unit of its radiance.
+fn triangle(scene: &Scene, number: u32, two_sided: bool) -> Bounds {
+    let record = &scene.surfaces().triangles()[number as usize];
     let (origin, [a, b]) = (double(record.origin), record.edges.map(double));
     let area = 0.5 * a.cross(b).length();
-    let corners = [origin, origin + a, origin + b];
-    let cone = Cone::of_normal(double(record.normal));
-    (area > 0.0).then(|| Bounds::around(corners, cone, strength * area))?
+    let corners = [origin + a, origin + b];
+    let is_one_sided = area > 0.0 && !two_sided;
+    Bounds {
+        low: corners.into_iter().fold(origin, DVec3::min),
+        high: corners.into_iter().fold(origin, DVec3::max),
+        cone: match is_one_sided {
+            true => Cone::of_normal(double(record.normal)),
+            false => Cone::EVERYWHERE,
+        },
+        intensity: area,
+    }
 }
 
 /// cosⁿθ is below cosθ where n ≥ 1; any other beam is as bright as in its middle up to the cutoff.

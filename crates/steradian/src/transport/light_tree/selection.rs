@@ -1,9 +1,12 @@
-//! One of many emitters: out of the tree, or of those beside it whose light comes from everywhere or infinitely far away.
+//! One of many emitters, or one triangle of a large mesh: out of the tree, or of those beside it whose light comes from infinitely far away.
 //!
-//! With probability q one beside the tree is chosen, by power whatever the place; else one of the tree by its importance there. q is the
-//! share that those beside have of all power, at most ½.
+//! With probability q an emitter beside the tree is chosen, by power whatever the place; else a leaf of the tree by its importance there.
+//! q is the share that those beside have of all power, at most ½.
+//!
+//! A triangle that was chosen with probability p is sampled with the density p r²/(a cosθ_l), where a is its area. Here p A/a, with the area
+//! A of the whole mesh, is called the probability, so that the density of a sample is that of the mesh, r²/(A cosθ_l), times it.
 
-use super::emitters::{Beams, bounds};
+use super::emitters::{Beams, Leaf, leaves};
 use super::{LightTree, Receiving};
 use crate::scene::Scene;
 use crate::transport::tables::Emitter;
@@ -11,8 +14,7 @@ use crate::transport::tables::Emitter;
 /// How one of the first emitters of the tables is chosen.
 pub(in crate::transport) struct Selection {
     tree: Option<LightTree>,
-    /// Emitters by light of the tree.
-    lights: Vec<u32>,
+    leaves: Vec<Leaf>,
     /// By emitter.
     places: Vec<At>,
     /// Emitters beside the tree, and the sum of the probabilities up to and including each.
@@ -22,7 +24,7 @@ pub(in crate::transport) struct Selection {
 /// Where an emitter is.
 #[derive(Copy, Clone, Debug)]
 enum At {
-    /// In the tree, by this number.
+    /// In the tree, from this leaf on.
     Tree(usize),
     /// Beside it, with this probability.
     Beside(f64),
@@ -32,6 +34,8 @@ enum At {
 #[derive(Copy, Clone, Debug)]
 pub(in crate::transport) struct Chosen {
     pub emitter: usize,
+    /// Which of its triangles, where they are leaves of their own.
+    pub triangle: Option<u32>,
     pub probability: f32,
     /// What is left of the number.
     pub u: f32,
@@ -40,43 +44,23 @@ pub(in crate::transport) struct Chosen {
 impl Selection {
     /// Of emitters whose probabilities by power are set; `strengths` are their radiances, intensities or irradiances in watts.
     pub fn new(scene: &Scene, emitters: &[Emitter], strengths: &[f64]) -> Self {
-        let (mut lights, mut of_lights, mut beside) = (vec![], vec![], vec![]);
-        let all: f64 = emitters
+        let (mut all, mut places, mut beams) = (vec![], vec![], Beams::default());
+        for (number, (emitter, strength)) in emitters.iter().zip(strengths).enumerate() {
+            let first = all.len();
+            all.extend(leaves(scene, (number, emitter), *strength, &mut beams));
+            places.push(match all.len() > first {
+                true => At::Tree(first),
+                false => At::Beside(f64::from(emitter.probability)),
+            });
+        }
+        let power: f64 = emitters
             .iter()
             .map(|emitter| f64::from(emitter.probability))
             .sum();
-        let (mut sum, mut beams) = (0.0, Beams::default());
-        let mut place = |(number, (emitter, strength)): (usize, (&Emitter, &f64))| match bounds(
-            scene, emitter, *strength, &mut beams,
-        ) {
-            Some(of_emitter) => {
-                lights.push(number as u32);
-                of_lights.push(of_emitter);
-                At::Tree(lights.len() - 1)
-            }
-            None => {
-                let probability = f64::from(emitter.probability) / all;
-                sum += probability;
-                beside.push((number as u32, sum));
-                At::Beside(probability)
-            }
-        };
-        let pairs = emitters.iter().zip(strengths);
-        let mut places: Vec<At> = pairs.enumerate().map(&mut place).collect();
-        let tree = LightTree::new(of_lights);
-        let scale = match tree {
-            Some(_) => (0.5 / sum).min(1.0),
-            None => 1.0 / sum,
-        };
-        for place in &mut places {
-            if let At::Beside(probability) = place {
-                *probability *= scale;
-            }
-        }
-        beside.iter_mut().for_each(|(_, sum)| *sum *= scale);
+        let beside = beside(&mut places, power, all.is_empty());
         Self {
-            tree,
-            lights,
+            tree: LightTree::new(all.iter().map(|(_, bounds)| *bounds)),
+            leaves: all.into_iter().map(|(leaf, _)| leaf).collect(),
             places,
             beside,
         }
@@ -89,9 +73,11 @@ impl Selection {
             return self.choose_beside(u);
         }
         let drawn = self.tree.as_ref()?.draw(at, (u - share) / (1.0 - share))?;
+        let leaf = &self.leaves[drawn.light];
         Some(Chosen {
-            emitter: self.lights[drawn.light] as usize,
-            probability: ((1.0 - share) * drawn.probability) as f32,
+            emitter: leaf.emitter as usize,
+            triangle: leaf.triangle,
+            probability: self.per_share(leaf, drawn.probability),
             u: single(drawn.u),
         })
     }
@@ -102,19 +88,27 @@ impl Selection {
         let before = index.checked_sub(1).map_or(0.0, |last| self.beside[last].1);
         Some(Chosen {
             emitter: emitter as usize,
+            triangle: None,
             probability: self.probability_beside(emitter as usize),
             u: single((u - before) / (sum - before)),
         })
     }
 
-    /// Probability with which [`choose`](Self::choose) chooses an emitter at a place.
-    pub fn probability(&self, at: &Receiving, emitter: usize) -> f32 {
-        match (self.places[emitter], &self.tree) {
-            (At::Tree(light), Some(tree)) => {
-                ((1.0 - self.share_beside()) * tree.probability(at, light)) as f32
-            }
-            _ => self.probability_beside(emitter),
-        }
+    /// Probability with which [`choose`](Self::choose) chooses an emitter at a place; of a mesh, for a point of this triangle.
+    pub fn probability(&self, at: &Receiving, emitter: usize, triangle: u32) -> f32 {
+        let (At::Tree(first), Some(tree)) = (self.places[emitter], &self.tree) else {
+            return self.probability_beside(emitter);
+        };
+        let number = match self.leaves[first].triangle {
+            Some(_) => first + triangle as usize,
+            None => first,
+        };
+        self.per_share(&self.leaves[number], tree.probability(at, number))
+    }
+
+    /// (1 − q) p, for triangles divided by a/A.
+    fn per_share(&self, leaf: &Leaf, probability: f64) -> f32 {
+        ((1.0 - self.share_beside()) * probability / leaf.share) as f32
     }
 
     fn probability_beside(&self, emitter: usize) -> f32 {
@@ -128,6 +122,29 @@ impl Selection {
     fn share_beside(&self) -> f64 {
         self.beside.last().map_or(0.0, |(_, sum)| *sum)
     }
+}
+
+/// Turns what the emitters beside the tree have of all `power` into probabilities; returns the cumulative ones.
+fn beside(places: &mut [At], power: f64, are_all: bool) -> Vec<(u32, f64)> {
+    let of_place = |place: &At| match place {
+        At::Beside(part) => *part,
+        At::Tree(_) => 0.0,
+    };
+    let sum: f64 = places.iter().map(of_place).sum();
+    let share = match are_all {
+        true => 1.0,
+        false => (sum / power).min(0.5),
+    };
+    let mut cumulative = vec![];
+    let mut so_far = 0.0;
+    for (number, place) in places.iter_mut().enumerate() {
+        if let At::Beside(part) = place {
+            *part *= share / sum;
+            so_far += *part;
+            cumulative.push((number as u32, so_far));
+        }
+    }
+    cumulative
 }
 
 /// In [0, 1).

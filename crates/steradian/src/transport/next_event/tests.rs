@@ -5,6 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 use glam::Vec3;
 
 use super::super::columns::Place;
+use super::super::towards::towards;
 use super::*;
 use crate::geometry::{Direction, Point, Transform, Vector};
 use crate::light::{Density, Kind};

@@ -183,6 +183,14 @@ pub(super) enum EmitterShape {
 }
 
 impl EmitterShape {
+    /// Number of its first triangle in the scene, if it has any.
+    fn first_triangle(&self) -> u32 {
+        match self {
+            Self::Triangles { first, .. } => *first,
+            _ => 0,
+        }
+    }
+
     pub fn is_delta(&self) -> bool {
         matches!(
             self,
@@ -337,12 +345,12 @@ impl<'a> Tables<'a> {
         self.selections[usize::from(of_extended)].as_ref()
     }
 
-    /// How many samples an emitter gets in the mean at a place where candidates are sampled.
+    /// How many samples an emitter gets in the mean at a place where candidates are sampled; of a mesh, per point of this primitive.
     #[inline(always)]
     pub fn rate(
         &self,
         candidates: Candidates,
-        emitter: usize,
+        (emitter, primitive): (usize, u32),
         at: impl FnOnce() -> Receiving,
     ) -> f32 {
         let Choice::ByImportance { samples } = candidates.choice else {
@@ -350,7 +358,8 @@ impl<'a> Tables<'a> {
         };
         let selection = self.selection(candidates);
         selection.map_or(0.0, |selection| {
-            samples as f32 * selection.probability(&at(), emitter)
+            let triangle = primitive - self.emitters[emitter].shape.first_triangle();
+            samples as f32 * selection.probability(&at(), emitter, triangle)
         })
     }
 
