@@ -1,5 +1,7 @@
 """A hall of 40 m x 40 m x 6 m with racks, lit by many lamps of the same flux together, and 400 points on its floor."""
 
+import pathlib
+
 HEAD = """[scene]
 name = "Hall with {count} lamps"
 spectrum = "broadband"
@@ -31,10 +33,14 @@ max = [{x1}, 36, 4]
 material = "grey"
 """
 
+# A recessed luminaire of 53 cm x 53 cm.
+LUMINAIRE = pathlib.Path(__file__).parents[2].resolve() / "tests/data/photometry/lum_sample_01.ldt"
+
 LAMPS = {
     "point": 'kind = "point"\nposition = [{x}, {y}, 5.5]\nflux = "{lumens} lm"',
     "spot": 'kind = "spot"\nposition = [{x}, {y}, 5.5]\ndirection = [0, 0, -1]\ncutoff = "60 deg"\nflux = "{lumens} lm"',
     "panel": 'kind = "rectangle"\norigin = [{x}, {y}, 5.5]\nedges = [[0, 0.1, 0], [0.1, 0, 0]]\nemission = {{ flux = "{lumens} lm" }}',
+    "luminaire": f'kind = "luminaire"\nfile = "{LUMINAIRE}"\nemit = "point"\nposition = [{{x}}, {{y}}, 5.5]\nflux = "{{lumens}} lm"',
 }
 
 # Rows and columns of lamps.

@@ -1,6 +1,6 @@
 """How long 400 points take to 2 % (95 %) under 10, 100, 1 000 and 10 000 lamps.
 
-    python3 many_lights.py STERADIAN [--kind point|spot|panel] [--rounds 3] [--other STERADIAN]
+    python3 many_lights.py STERADIAN [--kind point|spot|panel|luminaire] [--rounds 3] [--other STERADIAN]
 
 Processor time of all threads and time on the clock, the programs and the scenes taking turns; medians over the rounds and their
 ratio to 10 lamps. With --other a second program runs the same scenes beside the first."""

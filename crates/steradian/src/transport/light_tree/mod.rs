@@ -13,8 +13,10 @@
 //!
 //! | | bytes a light | |
 //! |---|---|---|
-//! | nodes | 70 to 104 | 208 each, n/3 to n/2 of them |
+//! | nodes | 70 to 104 | 208 each, n/3 to n/2 of them; mostly near n/2 |
 //! | trails | 8 | |
+//!
+//! 100 000 lights take .6 s to build.
 //!
 //! Source: A. Conty Estevez, C. Kulla, *Importance sampling of many lights with adaptive tree splitting* (PACMCGIT 1(2), 2018), which also
 //! splits at nodes of doubtful importance; here meters sample several strata of u instead.

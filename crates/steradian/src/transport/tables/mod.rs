@@ -246,11 +246,13 @@ impl<'a> Tables<'a> {
         let extended = extended.count();
         let strengths = strengths(scene, &emitters, &tints.tints);
         let cumulative = choose_by_power(scene, &mut emitters, &strengths);
-        let select = |count: usize| {
-            let many = count > ALL_LIGHTS;
-            many.then(|| Selection::new(scene, &emitters[..count], &strengths[..count]))
-        };
-        let selections = [select(emitters.len()), select(extended)];
+        let select = |count: usize| Selection::new(scene, &emitters[..count], &strengths[..count]);
+        let (all, deltas) = (emitters.len(), emitters.len() - extended);
+        let sums_some = (1..=SUMMED_LIGHTS).contains(&deltas);
+        let selections = [
+            (all > ALL_LIGHTS).then(|| select(all)),
+            (sums_some && extended > ALL_LIGHTS).then(|| select(extended)),
+        ];
         let sides = scene.parts().iter().flat_map(|part| {
             [(part.front, true), (part.back, false)].map(|(material, front)| {
                 let side = plain[material.0 as usize];
