@@ -29,10 +29,10 @@ const SENSORS: [&str; 2] = ["observer's view", "observer's eye"];
 /// Of the illuminance at the eye.
 const REL_ERROR: f64 = 0.01;
 const NO_LUMINANCE: &str = "the scene has no luminance: its bands say nothing of what is seen";
-/// What the observer sees.
+/// What the observer sees, and a little of what is behind, so that no pixel that counts lies on the rim.
 const PROJECTION: Projection = Projection::Fisheye {
     mapping: Fisheye::Equisolid,
-    fov: Angle::from_degrees(180.0),
+    fov: Angle::from_degrees(190.0),
 };
 
 /// What an observer sees.
@@ -77,7 +77,7 @@ pub struct Observer {
     /// What is up for the observer
     #[arg(long, value_name = "DX,DY,DZ", value_parser = values::direction, allow_hyphen_values = true, default_value = "0,0,1", requires = "observer")]
     up: Direction,
-    /// Width and height in pixels of the view, an equisolid fisheye of 180°
+    /// Width and height in pixels of the view, an equisolid fisheye of 190°, of which what is in front counts
     #[arg(long, value_name = "WxH", value_parser = values::resolution, default_value = "512x512", requires = "observer")]
     resolution: [u32; 2],
     /// Samples of a pixel [default: 64]
