@@ -19,5 +19,6 @@ mod plots;
 mod results;
 mod schedules;
 mod same_bytes;
+mod sensors;
 mod solid_angle;
 mod stored_results;

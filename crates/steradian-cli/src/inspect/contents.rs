@@ -380,6 +380,7 @@ fn place(sensor: &Sensor) -> String {
     match &sensor.kind {
         SensorKind::Irradiance(points) => plural(points.len(), "point"),
         SensorKind::ScalarIrradiance(points) => plural(points.len(), "point"),
+        SensorKind::Cylindrical(points) => plural(points.len(), "point"),
         SensorKind::Radiance(rays) => plural(rays.len(), "ray"),
         SensorKind::Flux { area, .. } => format!("{} m2", exact(*area)),
         SensorKind::Camera(camera) => {

@@ -95,6 +95,7 @@ fn sensor(sensor: &Sensor) -> Value {
     let (kind, at) = match &sensor.kind {
         Kind::Irradiance(points) => ("irradiance", json!({ "points": points.len() })),
         Kind::ScalarIrradiance(points) => ("scalar-irradiance", json!({ "points": points.len() })),
+        Kind::Cylindrical(points) => ("cylindrical-irradiance", json!({ "points": points.len() })),
         Kind::Radiance(rays) => ("radiance", json!({ "rays": rays.len() })),
         Kind::Flux { area, .. } => ("flux", json!({ "area": area })),
         Kind::Camera(camera) => {

@@ -14,7 +14,7 @@
 
 use serde_json::{Map, Value, json};
 use steradian::estimation::{Estimate, Method};
-use steradian::measurement::{Exposure, Extreme, Measurements, Reading, Statistics};
+use steradian::measurement::{Exposure, Extreme, Measurements, Reading, SensorRecord, Statistics};
 use steradian::quantity::Time;
 
 use super::error::ReportError;
@@ -59,6 +59,7 @@ fn report(run: &Run<'_>) -> Value {
         "relit": relit(measurements),
         "note": SAMPLING_ERROR_ONLY,
         "readings": readings.iter().map(reading).collect::<Vec<_>>(),
+        "grids": measurements.sensors.iter().filter_map(grid).collect::<Vec<_>>(),
         "statistics": measurements.statistics().iter().map(statistics).collect::<Vec<_>>(),
     })
 }
@@ -80,6 +81,17 @@ fn reading(reading: &Reading) -> Value {
         object.insert("exposure".to_owned(), exposure(found));
     }
     Value::Object(object)
+}
+
+/// How far the points of a grid are apart along its edges, and how far EN 12464-1 lets them be.
+fn grid(sensor: &SensorRecord) -> Option<Value> {
+    let layout = sensor.layout?;
+    Some(json!({
+        "sensor": sensor.name,
+        "count": layout.count,
+        "spacing": { "value": layout.spacing(), "unit": "m" },
+        "greatest_spacing": { "value": layout.greatest_spacing(), "unit": "m" },
+    }))
 }
 
 /// The factors on light groups that are not 1.

@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use steradian::estimation::Estimate;
-use steradian::measurement::{Measurements, Reading, Statistics};
+use steradian::measurement::{Measurements, Reading, SensorRecord, Statistics};
 
 use steradian::quantity::Time;
 use steradian::time::Interval;
 
 use super::columns::Columns;
-use super::numbers::{estimate, exact};
+use super::numbers::{estimate, exact, significant};
 use super::run::{Run, SAMPLING_ERROR_ONLY};
 
 /// The table with its notes.
@@ -155,7 +155,7 @@ pub(super) fn with_unit(value: &Estimate, unit: &str) -> String {
 
 fn place(position: [f64; 3]) -> String {
     position
-        .map(|coordinate| super::numbers::significant(coordinate, 6))
+        .map(|coordinate| significant(coordinate, 6))
         .join(" ")
 }
 
@@ -164,6 +164,7 @@ fn notes(run: &Run<'_>, readings: &[Reading]) -> Vec<String> {
     let mut notes = vec![SAMPLING_ERROR_ONLY.to_owned(), identity(run)];
     notes.extend(dimmed(measurements));
     notes.extend(relit(measurements));
+    notes.extend(measurements.sensors.iter().filter_map(grid));
     let missed = readings
         .iter()
         .filter(|reading| !reading.estimate.converged)
@@ -196,6 +197,18 @@ fn dimmed(measurements: &Measurements) -> Option<String> {
                 .to_owned()
         }),
     }
+}
+
+/// How far the points of a grid are apart, and how far they may be.
+fn grid(sensor: &SensorRecord) -> Option<String> {
+    let layout = sensor.layout?;
+    let [columns, rows] = layout.count;
+    let [first, second] = layout.spacing().map(|spacing| significant(spacing, 3));
+    let most = significant(layout.greatest_spacing(), 3);
+    let name = &sensor.name;
+    Some(format!(
+        "{name}: {columns} x {rows} points, {first} m x {second} m apart; EN 12464-1 asks for {most} m at most."
+    ))
 }
 
 /// How light groups were dimmed after the run.

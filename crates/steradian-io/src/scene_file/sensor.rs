@@ -5,8 +5,8 @@ use std::sync::Arc;
 use steradian::geometry::{Point, Transform, Vector};
 use steradian::quantity::Length;
 use steradian::scene::description::{
-    Bins, CameraDescription, Fisheye, FluxOf, FluxSurface, Projection, Receivers, Response,
-    SensorDescription, SensorKind, Side,
+    Bins, CameraDescription, Fisheye, FluxOf, FluxSurface, GridCount, Projection, Receivers,
+    Response, SensorDescription, SensorKind, Side,
 };
 use steradian::spectrum::Beyond;
 
@@ -18,6 +18,7 @@ use super::tables::{GRID, PROJECTION_NAMES, RESPONSE, RESPONSE_NAMES, SENSORS, S
 use super::value::{Read, Towards, choice, choices};
 use super::{placement, shape};
 
+choices! { GridCount, "en12464" => Self::En12464 }
 choices! { Side, "front" => Self::Front, "back" => Self::Back }
 choices! {
     FluxOf,
@@ -37,6 +38,10 @@ pub(super) fn read(node: Node<'_>) -> Option<SensorDescription> {
         "scalar-irradiance" => {
             positions(&fields).map(|points| SensorKind::ScalarIrradiance { points })
         }
+        "cylindrical-irradiance"
+        | "cylindrical-illuminance"
+        | "semicylindrical-irradiance"
+        | "semicylindrical-illuminance" => cylindrical(&fields),
         _ => camera(&fields).map(SensorKind::Camera),
     };
     let (response, bins) = (response(name, &fields), bins(&fields));
@@ -94,7 +99,7 @@ fn weights(fields: &Fields<'_>) -> Option<Response> {
 
 fn response(kind: &str, fields: &Fields<'_>) -> Option<Response> {
     let given = fields.get("response");
-    if !matches!(kind, "illuminance" | "luminance" | "luminous-flux") {
+    if !kind.ends_with("illuminance") && !matches!(kind, "luminance" | "luminous-flux") {
         return given;
     }
     if given.is_some_and(|given| given != Response::Photopic) {
@@ -134,6 +139,50 @@ fn rays(fields: &Fields<'_>, key: &str) -> Option<Vec<(Point, Vector)>> {
             .map(|(point, towards)| (up.point(point), up.direction(towards)))
             .collect(),
     )
+}
+
+fn cylindrical(fields: &Fields<'_>) -> Option<SensorKind> {
+    let axis = if fields.has("axis") {
+        placement::direction(fields, "axis")
+    } else {
+        Some(Vector::new(0.0, 0.0, 1.0))
+    };
+    let facing = fields
+        .has("facing")
+        .then(|| placement::direction(fields, "facing"));
+    let receivers = if fields.has("grid") {
+        fields.get("grid").map(|Grid(receivers)| receivers)
+    } else {
+        let along = |points: Vec<Point>| {
+            points
+                .into_iter()
+                .map(|point| (point, axis.unwrap_or(Vector::ZERO)))
+        };
+        positions(fields).map(|points| Receivers::Points(along(points).collect()))
+    };
+    let receivers = match receivers? {
+        Receivers::Grid {
+            origin,
+            edges,
+            count,
+            border,
+            ..
+        } => Receivers::Grid {
+            origin,
+            edges,
+            count,
+            border,
+            normal: Some(axis?),
+        },
+        others => others,
+    };
+    Some(SensorKind::Cylindrical {
+        receivers,
+        facing: match facing {
+            None => None,
+            Some(facing) => Some(facing?),
+        },
+    })
 }
 
 fn positions(fields: &Fields<'_>) -> Option<Vec<Point>> {
@@ -232,11 +281,20 @@ impl Read for Grid {
             placement::point(&fields, "origin"),
             placement::edges(&fields, "edges"),
         );
-        let (count, normal) = (fields.get("count"), placement::direction(&fields, "normal"));
+        let count = if fields.has("spacing") {
+            fields.get("spacing")
+        } else {
+            fields.get("count").map(GridCount::Given)
+        };
+        let (border, normal) = (
+            fields.get::<Length>("border"),
+            placement::direction(&fields, "normal"),
+        );
         Some(Self(Receivers::Grid {
             origin: origin?,
             edges: edges?,
             count: count?,
+            border: border?.to_metres(),
             normal,
         }))
     }

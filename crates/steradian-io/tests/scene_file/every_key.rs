@@ -438,7 +438,10 @@ fn receivers_of_irradiance() {
     else {
         panic!()
     };
-    assert_eq!((edges[1], *count), (Vector::new(0.0, 1.0, 0.0), [4, 5]));
+    assert_eq!(
+        (edges[1], *count),
+        (Vector::new(0.0, 1.0, 0.0), GridCount::Given([4, 5]))
+    );
     assert_eq!(*normal, Some(Vector::new(0.0, 0.0, -1.0)));
     let (Some(Response::Photopic), Receivers::Grid { normal: None, .. }) = receivers("lux grid")
     else {
@@ -515,6 +518,33 @@ fn the_other_sensors() {
         panic!()
     };
     assert_eq!(*points, [Point::new(0.0, 0.0, 1.0)]);
+    for (name, faces) in [
+        ("upright", None),
+        ("upright lux", None),
+        ("half", Some(Vector::new(1.0, 0.0, 0.0))),
+        ("half lux", Some(Vector::new(0.0, 1.0, 0.0))),
+    ] {
+        let SensorKind::Cylindrical { receivers, facing } = kind(name) else {
+            panic!()
+        };
+        assert_eq!(*facing, faces, "{name}");
+        let axis = match receivers {
+            Receivers::Points(points) => points[0].1,
+            Receivers::Grid {
+                count: GridCount::En12464,
+                border: 0.5,
+                normal: Some(axis),
+                ..
+            } => *axis,
+            _ => panic!("{name}"),
+        };
+        let tilted = name == "half";
+        assert_eq!(
+            axis,
+            Vector::new(0.0, f64::from(u8::from(tilted)), 1.0),
+            "{name}"
+        );
+    }
     let SensorKind::Camera(camera) = kind("camera") else {
         panic!()
     };

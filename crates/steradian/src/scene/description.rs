@@ -466,6 +466,13 @@ pub enum SensorKind {
         /// Where.
         points: Vec<Point>,
     },
+    /// Mean irradiance of the side of a small cylinder, or of the half of it that faces a direction.
+    Cylindrical {
+        /// Where; normals are the axes.
+        receivers: Receivers,
+        /// What the half of it faces; `None` is all of it.
+        facing: Option<Vector>,
+    },
     /// A picture.
     Camera(CameraDescription),
 }
@@ -474,9 +481,7 @@ impl SensorKind {
     /// A point of it; none for a sensor on a shape of the scene.
     pub(super) fn place(&self) -> Option<Point> {
         match self {
-            Self::Irradiance(Receivers::Points(points)) => points.first().map(|point| point.0),
-            Self::Irradiance(Receivers::Grid { origin, .. }) => Some(*origin),
-            Self::Irradiance(Receivers::Shape { .. }) => None,
+            Self::Irradiance(receivers) | Self::Cylindrical { receivers, .. } => receivers.place(),
             Self::Flux { surface, .. } => surface.place(),
             Self::Radiance { rays } => rays.first().map(|ray| ray.0),
             Self::ScalarIrradiance { points } => points.first().copied(),
@@ -497,7 +502,9 @@ pub enum Receivers {
         /// The two sides.
         edges: [Vector; 2],
         /// Cells along each.
-        count: [u32; 2],
+        count: GridCount,
+        /// Width of the strip at each side that is left out, in metres.
+        border: f64,
         /// Normal; `None` is `edges[0] × edges[1]`.
         normal: Option<Vector>,
     },
@@ -512,6 +519,25 @@ pub enum Receivers {
         /// Distance from the surface in metres.
         offset: f64,
     },
+}
+
+impl Receivers {
+    fn place(&self) -> Option<Point> {
+        match self {
+            Self::Points(points) => points.first().map(|point| point.0),
+            Self::Grid { origin, .. } => Some(*origin),
+            Self::Shape { .. } => None,
+        }
+    }
+}
+
+/// How many points a grid has.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub enum GridCount {
+    /// So many along each side.
+    Given([u32; 2]),
+    /// As EN 12464-1 wants them for the size of the area.
+    En12464,
 }
 
 /// A side of a surface.

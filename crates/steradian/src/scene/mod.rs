@@ -8,6 +8,7 @@ mod curves;
 pub mod description;
 mod forms;
 mod geometry;
+mod grids;
 mod lights;
 mod lone_material;
 mod luminaires;

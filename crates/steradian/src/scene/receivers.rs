@@ -3,7 +3,8 @@
 use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
 
 use super::Fault;
-use super::description::{Receivers, SensorKind, Side};
+use super::description::{Receivers, Side};
+use super::grids::layout_of;
 use super::sensors::Context;
 use crate::geometry::{Direction, Point, Vector};
 use crate::sampling::{block, hash};
@@ -25,12 +26,11 @@ impl Context<'_> {
     ) -> Result<Vec<Receiver>, Fault> {
         let (key, points) = match receivers {
             Receivers::Points(points) => ("points", given(points)?),
-            Receivers::Grid {
-                origin,
-                edges,
-                count,
-                normal,
-            } => ("grid", grid(&layout(*origin, *edges, *count), *normal)?),
+            Receivers::Grid { normal, .. } => {
+                let layout = layout_of(receivers)?;
+                let cells = layout.map(|layout| grid(&layout, *normal));
+                ("grid", cells.unwrap_or_else(|| Ok(vec![]))?)
+            }
             Receivers::Shape {
                 shape,
                 side,
@@ -153,28 +153,6 @@ fn given(points: &[(Point, Vector)]) -> Result<Vec<(Point, Direction)>, Fault> {
     let point =
         |&(position, normal): &(Point, Vector)| Ok((position, direction_of("points", normal)?));
     points.iter().map(point).collect()
-}
-
-/// How the points of a sensor lie side by side, if they are a grid.
-pub(super) fn layout_of(kind: &SensorKind) -> Option<Layout> {
-    let SensorKind::Irradiance(Receivers::Grid {
-        origin,
-        edges,
-        count,
-        ..
-    }) = kind
-    else {
-        return None;
-    };
-    Some(layout(*origin, *edges, *count))
-}
-
-fn layout(origin: Point, edges: [Vector; 2], count: [u32; 2]) -> Layout {
-    Layout {
-        origin: origin.to_array(),
-        edges: edges.map(Vector::to_array),
-        count,
-    }
 }
 
 /// Centres of a grid's cells.

@@ -8,13 +8,16 @@ use super::description::{
 };
 use super::forms::Forms;
 use super::geometry::virtual_form;
+use super::grids::layout_of;
 use super::lights::Builder;
-use super::receivers::{direction_of, layout_of, no_points};
+use super::receivers::{direction_of, no_points};
 use super::spectral_readouts;
 use super::{Fault, Part, Problem};
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Direction, Point, Vector};
 use crate::sensor::readout::Quantity;
-use crate::sensor::{FluxOf, FluxSurface, Kind, Readout, Response, Sensor, readout};
+use crate::sensor::{
+    Cylinder, FluxOf, FluxSurface, Kind, Layout, Readout, Receiver, Response, Sensor, readout,
+};
 use crate::shape::{ShapeId, Solid, Surfaces};
 use crate::spectrum::Lanes;
 
@@ -72,7 +75,7 @@ impl Context<'_> {
         Ok(Sensor {
             name: description.name.clone(),
             readouts,
-            layout: layout_of(&description.kind),
+            layout: layout(&description.kind)?,
             kind,
         })
     }
@@ -178,6 +181,10 @@ impl Context<'_> {
                 }
                 Ok(Kind::ScalarIrradiance(points.clone()))
             }
+            SensorKind::Cylindrical { receivers, facing } => {
+                let receivers = self.receivers(receivers, &sensor.name)?;
+                cylindrical(&receivers, *facing)
+            }
             SensorKind::Radiance { rays } => radiance(rays),
             SensorKind::Flux { surface, of } => self.flux(surface, *of),
             SensorKind::Camera(camera) => camera_of(camera),
@@ -223,7 +230,11 @@ impl Context<'_> {
     /// Whether a sensor is about a shape that has a problem of its own, which says enough.
     fn needs_failed_shape(&self, kind: &SensorKind) -> bool {
         let name = match kind {
-            SensorKind::Irradiance(Receivers::Shape { shape, .. }) => shape,
+            SensorKind::Irradiance(Receivers::Shape { shape, .. })
+            | SensorKind::Cylindrical {
+                receivers: Receivers::Shape { shape, .. },
+                ..
+            } => shape,
             SensorKind::Flux {
                 surface: description::FluxSurface::Shape { name, .. },
                 ..
@@ -282,11 +293,32 @@ impl Context<'_> {
     }
 }
 
+/// How the points of a sensor lie side by side, if they are a grid.
+fn layout(kind: &SensorKind) -> Result<Option<Layout>, Fault> {
+    match kind {
+        SensorKind::Irradiance(receivers) | SensorKind::Cylindrical { receivers, .. } => {
+            layout_of(receivers)
+        }
+        _ => Ok(None),
+    }
+}
+
 /// What a sensor of this kind reports.
 fn quantities(kind: &Kind) -> Vec<Quantity> {
     match kind {
         Kind::Irradiance(_) => vec![readout::IRRADIANCE.into()],
         Kind::ScalarIrradiance(_) => vec![readout::SCALAR.into()],
+        Kind::Cylindrical(cylinders) => {
+            let is_half = cylinders.iter().any(|one| one.facing.is_some());
+            vec![
+                if is_half {
+                    readout::SEMICYLINDRICAL
+                } else {
+                    readout::CYLINDRICAL
+                }
+                .into(),
+            ]
+        }
         Kind::Radiance(_) | Kind::Camera(_) => vec![readout::RADIANCE.into()],
         Kind::Flux { area, of, .. } => {
             let mean = match of {
@@ -308,6 +340,10 @@ fn positions(kind: &Kind) -> (&'static str, Vec<Point>) {
             ("points", position.collect())
         }
         Kind::ScalarIrradiance(points) => ("points", points.clone()),
+        Kind::Cylindrical(cylinders) => {
+            let position = cylinders.iter().map(|cylinder| cylinder.position);
+            ("points", position.collect())
+        }
         Kind::Radiance(rays) => ("rays", rays.iter().map(|ray| ray.0).collect()),
         Kind::Camera(camera) => ("position", vec![camera.position]),
         Kind::Flux { .. } => ("surface", vec![]),
@@ -323,3 +359,32 @@ fn radiance(rays: &[(Point, Vector)]) -> Result<Kind, Fault> {
         .map(|&(origin, direction)| Ok((origin, direction_of("rays", direction)?)));
     Ok(Kind::Radiance(rays.collect::<Result<_, Fault>>()?))
 }
+
+/// Cylinders whose axes are the normals of receivers.
+fn cylindrical(receivers: &[Receiver], facing: Option<Vector>) -> Result<Kind, Fault> {
+    let cylinder = |receiver: &Receiver| {
+        let axis = receiver.normal;
+        let facing = facing.map(|facing| across(facing, axis)).transpose()?;
+        Ok(Cylinder {
+            position: receiver.position,
+            axis,
+            facing,
+            clearance: receiver.clearance,
+        })
+    };
+    let cylinders = receivers.iter().map(cylinder);
+    Ok(Kind::Cylindrical(cylinders.collect::<Result<_, Fault>>()?))
+}
+
+/// The part of a direction across an axis.
+fn across(facing: Vector, axis: Direction) -> Result<Direction, Fault> {
+    let facing = direction_of("facing", facing)?;
+    let across = facing.to_vector() - axis.to_vector() * facing.dot(axis);
+    Direction::new(across)
+        .ok()
+        .filter(|_| across.length() > ALONG)
+        .ok_or_else(|| ("facing", "the direction lies along the axis".into()))
+}
+
+/// Sine of the least angle between a direction and an axis that it is across.
+const ALONG: f64 = 1e-6;

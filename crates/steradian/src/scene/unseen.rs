@@ -8,7 +8,9 @@
 use super::Scene;
 use crate::geometry::Point;
 use crate::light::{Kind as LightKind, Light};
-use crate::sensor::{Camera, FluxSurface, Kind as SensorKind, Projection, Receiver, Sensor};
+use crate::sensor::{
+    Camera, Cylinder, FluxSurface, Kind as SensorKind, Projection, Receiver, Sensor,
+};
 use crate::shape::{Enclosure, Form, ShapeId, Side};
 
 /// Points beyond which a light or sensor with extent counts as its bounding box.
@@ -136,6 +138,10 @@ fn hulls(scene: &Scene, sensor: &Sensor) -> Vec<Hull> {
             let off = |receiver: &Receiver| receiver.clearance.max(4.0 * surfaces.clearance());
             let start = |one: &Receiver| vec![one.position + one.normal * off(one)];
             receivers.iter().map(start).collect()
+        }
+        SensorKind::Cylindrical(cylinders) => {
+            let start = |one: &Cylinder| vec![one.position + one.axis * one.clearance];
+            cylinders.iter().map(start).collect()
         }
         SensorKind::ScalarIrradiance(points) => points.iter().map(|point| vec![*point]).collect(),
         SensorKind::Radiance(rays) => rays.iter().map(|ray| vec![ray.0]).collect(),

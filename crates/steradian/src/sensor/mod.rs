@@ -6,6 +6,8 @@
 //! | flux | Φ = ∫ E dA over a surface | W or lm |
 //! | radiance | L along a ray | W/(m² sr) or cd/m² |
 //! | scalar irradiance | E₀ = ∫ L dω over the sphere | W/m² or lx |
+//! | cylindrical irradiance | E_z = (1/π) ∫ L sinε dω, ε from the axis | W/m² or lx |
+//! | semicylindrical irradiance | E_sc = (1/π) ∫ L sinε (1 + cosα) dω, α about the axis from where it faces | W/m² or lx |
 //!
 //! A sensor of any kind sees every light: lights without extent by the inverse-square law, all others by sampling.
 
@@ -15,6 +17,7 @@ pub(crate) mod readout;
 
 pub use camera::{Camera, Fisheye, Projection};
 pub use layout::Layout;
+pub(crate) use layout::greatest_spacing;
 pub use readout::{Bins, Readout, Response, readouts};
 
 use serde::{Deserialize, Serialize};
@@ -41,6 +44,19 @@ pub struct Receiver {
     /// The surface it lies on, if any.
     pub sits_on: Option<SitsOn>,
     /// Distance to keep from that surface so that rays do not meet it, in metres.
+    pub clearance: f64,
+}
+
+/// A small upright cylinder, or the half of it that faces a direction; its ends do not count.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cylinder {
+    /// Where.
+    pub position: Point,
+    /// Its axis.
+    pub axis: Direction,
+    /// What the half of it faces, across the axis; none for the whole cylinder.
+    pub facing: Option<Direction>,
+    /// Distance along the axis to keep from the surface that it stands on, in metres.
     pub clearance: f64,
 }
 
@@ -92,6 +108,8 @@ pub enum Kind {
     Irradiance(Vec<Receiver>),
     /// Scalar irradiance at points.
     ScalarIrradiance(Vec<Point>),
+    /// Cylindrical or semicylindrical irradiance at points.
+    Cylindrical(Vec<Cylinder>),
     /// Radiance along rays.
     Radiance(Vec<(Point, Direction)>),
     /// Flux of a surface.

@@ -74,6 +74,14 @@ pub(crate) const SCALAR: Names = Names {
     radiant: ("scalar irradiance", "W/m2"),
     photometric: ("scalar illuminance", "lx"),
 };
+pub(crate) const CYLINDRICAL: Names = Names {
+    radiant: ("cylindrical irradiance", "W/m2"),
+    photometric: ("cylindrical illuminance", "lx"),
+};
+pub(crate) const SEMICYLINDRICAL: Names = Names {
+    radiant: ("semicylindrical irradiance", "W/m2"),
+    photometric: ("semicylindrical illuminance", "lx"),
+};
 pub(crate) const RADIANCE: Names = Names {
     radiant: ("radiance", "W/(m2 sr)"),
     photometric: ("luminance", "cd/m2"),

@@ -23,6 +23,17 @@ pub(super) fn irradiance(
     normal: Option<Direction>,
     clearance: f64,
 ) -> Vec<f64> {
+    weighted(tables, point, normal, clearance, |_| 1.0)
+}
+
+/// The same with the light from each direction weighted.
+pub(super) fn weighted(
+    tables: &Tables<'_>,
+    point: Point,
+    normal: Option<Direction>,
+    clearance: f64,
+    weight: impl Fn(Direction) -> f64,
+) -> Vec<f64> {
     let scene = tables.scene;
     let count = scene.lanes().count();
     let mut columns = vec![0.0; scene.columns()];
@@ -67,7 +78,7 @@ pub(super) fn irradiance(
         let through = transmittance.of(i);
         let irradiance = sample
             .irradiance
-            .map(|lane| lane.to_watts_per_square_metre());
+            .map(|lane| lane.to_watts_per_square_metre() * weight(sample.direction));
         let in_colours = scene.lanes().is_spectral() && tables.lets_pass;
         let channels = if in_colours && through != [1.0; 4] {
             through_colours(tables, &alone(&rays, i), light, irradiance)

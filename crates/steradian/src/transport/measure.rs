@@ -59,7 +59,7 @@ impl Meter<'_> {
     fn mode(&self, sums_lights: bool) -> Mode {
         let delta = !sums_lights;
         match self {
-            Meter::Irradiance { .. } => Mode::Hemisphere { delta },
+            Meter::Irradiance { .. } | Meter::Cylinder(_) => Mode::Hemisphere { delta },
             Meter::Flux(_) => Mode::Hemisphere { delta: true },
             Meter::Scalar { .. } => Mode::Sphere { delta },
             Meter::Surface(_) => Mode::Surface,
@@ -70,7 +70,7 @@ impl Meter<'_> {
     /// What a path's gathered light is multiplied with.
     fn scale(&self) -> f64 {
         match self {
-            Meter::Irradiance { .. } => PI,
+            Meter::Irradiance { .. } | Meter::Cylinder(_) => PI,
             Meter::Flux(flux) => PI * flux.area,
             Meter::Scalar { .. } => 4.0 * PI,
             Meter::Surface(_) | Meter::Ray { .. } => 1.0,
@@ -205,6 +205,12 @@ impl<'a> Meters<'a> {
                     paths
                         .vertices
                         .push(*place, [0.25 * FRAC_1_PI; 4], identity, [u[2], u[3]]);
+                }
+                Meter::Cylinder(cylinder) => {
+                    let place = cylinder.place(u[0]);
+                    paths
+                        .vertices
+                        .push(place, [FRAC_1_PI; 4], identity, [u[2], u[3]]);
                 }
                 Meter::Surface(seen) => {
                     let encounter = Encounter {

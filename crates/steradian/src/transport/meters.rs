@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | irradiance | cosθ/π about the normal | π |
 //! | scalar irradiance | uniform over the sphere | 4π |
+//! | cylindrical irradiance | uniform about the axis, then cosθ/π about that normal | π |
 //! | flux | uniform over the surface, then cosθ/π | πA |
 //! | radiance | the surface that the ray meets | 1 |
 //!
@@ -14,6 +15,7 @@
 use steradian_kernel::{HitBatch, MISS, RayBatch};
 
 use super::columns::Place;
+use super::cylinder::{self, CylinderMeter};
 use super::exact::{self, is_known};
 use super::flux::FluxMeter;
 use super::interaction::hit;
@@ -23,7 +25,7 @@ use super::tables::{Model, Side, Tables};
 use crate::geometry::{Direction, Point};
 use crate::light::Light;
 use crate::scene::Scene;
-use crate::sensor::{FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
+use crate::sensor::{Cylinder, FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
 use crate::shape::Form;
 
 /// What one stream samples.
@@ -36,6 +38,8 @@ pub(super) enum Meter<'a> {
     },
     /// A point that takes light from everywhere.
     Scalar { place: Place, known: u64 },
+    /// A point that takes light from hemispheres of normals about an axis.
+    Cylinder(CylinderMeter),
     /// The reflecting surface that a ray meets.
     Surface(Encounter),
     /// A ray, of which nothing is known beforehand.
@@ -80,6 +84,11 @@ pub(super) fn prepare<'a>(
             .iter()
             .enumerate()
             .map(|(i, point)| context.scalar(i, *point))
+            .collect(),
+        Kind::Cylindrical(cylinders) => cylinders
+            .iter()
+            .enumerate()
+            .map(|(i, cylinder)| context.cylinder(i, cylinder))
             .collect(),
         Kind::Radiance(rays) => context.radiance(rays),
         Kind::Flux { surface, of, .. } => vec![context.flux(surface, *of)],
@@ -246,6 +255,25 @@ impl<'t, 'a> Context<'t, 'a> {
             meter: self
                 .samples_points(&closed)
                 .then_some(Meter::Scalar { place, known }),
+            exact,
+            closed,
+            stream: None,
+        }
+    }
+
+    fn cylinder(&self, index: usize, cylinder: &Cylinder) -> Prepared<'a> {
+        let start = cylinder.position + cylinder.axis * cylinder.clearance;
+        let exact = cylinder::exact(self.tables, cylinder, start);
+        let closed = self.closed_at(0);
+        let meter = CylinderMeter::new(cylinder, self.scene.surfaces().to_kernel(start));
+        Prepared {
+            index,
+            position: Some(cylinder.position),
+            normal: Some(cylinder.facing.unwrap_or(cylinder.axis)),
+            sits_on: None,
+            meter: self
+                .samples_points(&closed)
+                .then_some(Meter::Cylinder(meter)),
             exact,
             closed,
             stream: None,

@@ -9,6 +9,7 @@ mod camera;
 mod channels;
 mod choice;
 mod columns;
+mod cylinder;
 mod exact;
 mod flux;
 mod interaction;

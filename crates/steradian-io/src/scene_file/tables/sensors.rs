@@ -1,7 +1,7 @@
 //! Keys of sensors.
 
 use steradian::quantity::{Angle, Length};
-use steradian::scene::description::{FluxOf, Response, Side};
+use steradian::scene::description::{FluxOf, GridCount, Response, Side};
 
 use super::{EDGES, POINTS, SHAPE, SURFACES};
 use crate::scene_file::keys::{Family, Key, Kind, Record, Value};
@@ -30,6 +30,25 @@ const RECEIVERS: &[Key] = &[
         "Their distance from the surface",
     )
     .beside("shape"),
+];
+const CYLINDER_POINTS: Key = Key::one_of("place", "points", POINTS, "[x, y, z] of each");
+const CYLINDER_GRID: Key = Key::one_of(
+    "place",
+    "grid",
+    Value::Table(&GRID),
+    "The cell centres of a grid, whose normal does not matter",
+);
+const AXIS: Key = Key::optional(
+    "axis",
+    Value::Direction,
+    "Axis of the cylinders; up in the scene unless given",
+);
+const CYLINDER: &[Key] = &[CYLINDER_POINTS, CYLINDER_GRID, AXIS];
+const HALF_CYLINDER: &[Key] = &[
+    CYLINDER_POINTS,
+    CYLINDER_GRID,
+    AXIS,
+    Key::required("facing", Value::Direction, "What the half faces"),
 ];
 const FLUX_SENSOR: &[Key] = &[
     Key::one_of("surface", "shape", SHAPE, "A shape of the scene"),
@@ -91,6 +110,26 @@ pub const SENSORS: Family = Family {
             "scalar-irradiance",
             "Radiance arriving at points, integrated over all directions",
             &[Key::required("points", POINTS, "[x, y, z] of each")],
+        ),
+        Kind::new(
+            "cylindrical-irradiance",
+            "Mean irradiance of the side of a small cylinder",
+            CYLINDER,
+        ),
+        Kind::new(
+            "cylindrical-illuminance",
+            "Mean illuminance of the side of a small cylinder",
+            CYLINDER,
+        ),
+        Kind::new(
+            "semicylindrical-irradiance",
+            "Mean irradiance of the half of a small cylinder that faces a direction",
+            HALF_CYLINDER,
+        ),
+        Kind::new(
+            "semicylindrical-illuminance",
+            "Mean illuminance of the half of a small cylinder that faces a direction",
+            HALF_CYLINDER,
         ),
         Kind::new(
             "camera",
@@ -165,10 +204,23 @@ pub const GRID: Record = Record {
     keys: &[
         Key::required("origin", Value::Point, "A corner"),
         Key::required("edges", EDGES, "Its two sides"),
-        Key::required(
+        Key::one_of(
+            "number",
             "count",
             Value::Array(&Value::Count, 2),
             "Cells along each side",
+        ),
+        Key::one_of(
+            "number",
+            "spacing",
+            GridCount::VALUE,
+            "As many cells as EN 12464-1 wants for an area of this size",
+        ),
+        Key::default(
+            "border",
+            Length::VALUE,
+            "0",
+            "Width of the strip along each side that is left out",
         ),
         Key::optional(
             "normal",

@@ -337,7 +337,8 @@ fn a_grid_has_its_points_at_cell_centres_row_by_row() {
         SensorKind::Irradiance(Receivers::Grid {
             origin: Point::new(0.0, 0.0, 1.0),
             edges: [Vector::new(4.0, 0.0, 0.0), Vector::new(0.0, 3.0, 0.0)],
-            count: [2, 3],
+            count: GridCount::Given([2, 3]),
+            border: 0.0,
             normal: None,
         }),
     ));

@@ -505,7 +505,8 @@ fn sensors_without_points_or_directions() {
         SensorKind::Irradiance(Receivers::Grid {
             origin: Point::ORIGIN,
             edges: [Vector::new(1.0, 0.0, 0.0), Vector::new(2.0, 0.0, 0.0)],
-            count,
+            count: GridCount::Given(count),
+            border: 0.0,
             normal,
         })
     };
