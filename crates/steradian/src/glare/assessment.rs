@@ -13,7 +13,7 @@
 //! | UGR | 8/ln 10 · (w_i/W − e_i/(π L_b) outside the sources) |
 //!
 //! with w_i = 2 L ω_i/p² for the pixels of a source of luminance L, 0 for others. Which pixels are bright, and the position index, are held fixed: errors
-//! that move a pixel over the threshold are not included.
+//! that move a pixel over the threshold are not included, nor that a brighter edge of a wide source moves its place, which is of the size of the edge's own part.
 
 use std::f64::consts::{LN_10, PI};
 
@@ -160,12 +160,11 @@ mod tests {
     }
 
     /// The error of one pixel moves each measure as a change of its luminance does: differences over ± 1 cd/m² of 200 or 20 000 are off by a
-    /// relative (1/200)² at most. The position index is held fixed, but a pixel at the edge of this wide source moves its place, and DGP by 6 % of the
-    /// pixel's part.
+    /// relative (1/200)² at most. The position index is held fixed: of a pixel 2° aside of the source's place that is 10 % of UGR's derivative.
     #[test]
     fn errors_are_derivatives() {
         let detection = Detection::default();
-        for (pixel, change) in [(2 * 30 + 15, 1.0), (10 * 30 + 13, 1.0), (20 * 30 + 20, 1.0)] {
+        for (pixel, change) in [(2 * 30 + 15, 1.0), (11 * 30 + 13, 1.0), (20 * 30 + 20, 1.0)] {
             let [low, high] =
                 [-change, change].map(|more| view(pixel, more, 0.0).assess(&detection));
             let found = view(pixel, 0.0, change).assess(&detection);
@@ -180,8 +179,8 @@ mod tests {
             check(&|all| all.illuminance, 1e-9);
             check(&|all| all.mean_luminance, 1e-9);
             check(&|all| all.background, 1e-9);
-            check(&|all| all.daylight_glare_probability, 0.1);
-            check(&|all| all.unified_glare_rating.unwrap(), 0.1);
+            check(&|all| all.daylight_glare_probability, 0.05);
+            check(&|all| all.unified_glare_rating.unwrap(), 0.12);
         }
     }
 
