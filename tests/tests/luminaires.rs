@@ -1,12 +1,14 @@
 //! Luminaires as lights: against another program, closed forms, quadrature and their own flux.
 
 use std::f64::consts::PI;
+use std::path::Path;
 use std::sync::Arc;
 
 use steradian::geometry::{Direction, Point, Vector};
 use steradian::light::{FarField, Opening, Planes};
 use steradian::scene::description::{FluxOf, LightDescription, SceneDescription, SensorKind};
 use steradian::transport::MeasureOptions;
+use steradian_io::files::DiskFiles;
 use steradian_kernel::InstructionSet;
 use steradian_tests::luminaires::{folder, hanging, on_the_floor, scene_of, turned};
 use steradian_tests::measuring::{measured, reading, rel_error, samples};
@@ -391,7 +393,22 @@ fn a_recessed_luminaire_is_not_lost_in_the_ceiling() {
     assert_close("mirrored", mirrored, 0.9 * luminance, 1e-5 * luminance);
 }
 
-/// Threads, instruction sets and shards change no bit.
+/// What the header of the scene derives.
+#[test]
+fn the_shipped_luminaire_gives_what_its_header_says() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/luminaire.toml");
+    let loaded = steradian_io::scene_file::read_scene(&path, &DiskFiles::default());
+    let Ok(loaded) = loaded else {
+        panic!("{loaded:?}")
+    };
+    let found = measured(&loaded.description, &rel_error(1e-3)).readings();
+    // The second by quadrature of the definition.
+    for (reading, expected) in found.iter().zip([242.73, 158.44]) {
+        assert_agrees("floor", &reading.estimate, expected, 2e-4 * expected);
+    }
+}
+
+/// Threads and instruction sets change no bit.
 #[test]
 fn openings_change_no_bit() {
     let table = fading();

@@ -273,7 +273,7 @@ pub fn light_kind(light: &Light) -> &'static str {
         LightKind::Point(_) => "point",
         LightKind::Spot(_) => "spot",
         LightKind::Directional { .. } => "directional",
-        LightKind::Environment { .. } => "environment",
+        LightKind::Environment { .. } | LightKind::EnvironmentMap { .. } => "environment",
         LightKind::Area(_) => "area",
         LightKind::Luminaire(_) => "luminaire",
     }
@@ -293,6 +293,14 @@ pub fn power(scene: &Scene, light: &Light) -> Vec<(f64, &'static str)> {
         LightKind::Environment { radiance } => {
             let lanes = radiance.map(|lane| lane.to_watts_per_square_metre_steradian());
             (lanes, ["W/(m2 sr)", "cd/m2"])
+        }
+        LightKind::EnvironmentMap { radiance, .. } => {
+            let lanes = radiance.map(|lane| lane.to_watts_per_square_metre_steradian());
+            let units = [
+                "W/(m2 sr) where its picture is 1",
+                "cd/m2 where its picture is 1",
+            ];
+            (lanes, units)
         }
         LightKind::Area(area) => {
             let surface = scene.surfaces().shape(area.shape).form.area();

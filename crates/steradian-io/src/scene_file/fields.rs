@@ -96,15 +96,6 @@ impl<'a> Fields<'a> {
         for (key, _) in in_file_order(self.table) {
             let name = key.get_ref().as_ref();
             match self.keys.iter().find(|known| known.name == name) {
-                Some(Key {
-                    need: Need::NotYet, ..
-                }) => {
-                    self.context().error(
-                        key.span(),
-                        format!("key `{name}` is not supported yet"),
-                        None,
-                    );
-                }
                 None if Some(name) != tag => {
                     let (nearest, hint) = self.suggestion(name);
                     meant.extend(nearest);
@@ -121,12 +112,7 @@ impl<'a> Fields<'a> {
     }
 
     fn suggestion(&self, name: &str) -> (Option<&'static str>, String) {
-        let valid = || {
-            self.keys
-                .iter()
-                .filter(|key| key.need != Need::NotYet)
-                .map(|key| key.name)
-        };
+        let valid = || self.keys.iter().map(|key| key.name);
         match nearest(name, valid()) {
             Some(meant) => (Some(meant), format!("did you mean `{meant}`?")),
             None => (

@@ -60,7 +60,7 @@ impl Help {
     }
 
     fn keys(&mut self, keys: &'static [Key]) {
-        for key in keys.iter().filter(|key| key.need != Need::NotYet) {
+        for key in keys {
             self.line(
                 4,
                 &format!("{:<18} {}. {}", key.name, key.doc, need(key, keys)),
@@ -115,7 +115,7 @@ fn need(key: &Key, keys: &[Key]) -> String {
                 same.map(|key| key.name).collect::<Vec<_>>().join(", ")
             )
         }
-        Need::Optional | Need::NotYet => String::new(),
+        Need::Optional => String::new(),
     }
 }
 

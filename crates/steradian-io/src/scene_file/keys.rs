@@ -34,8 +34,6 @@ pub(super) enum Need {
     Default(&'static str),
     /// Exactly one key of the group of this name must be there.
     OneOf(&'static str),
-    /// Known, but not yet read.
-    NotYet,
 }
 
 /// What a key holds.
@@ -169,10 +167,6 @@ impl Key {
         doc: &'static str,
     ) -> Self {
         Self::new(name, value, Need::OneOf(group), doc)
-    }
-
-    pub const fn not_yet(name: &'static str) -> Self {
-        Self::new(name, Value::Text, Need::NotYet, "")
     }
 
     /// The same key, allowed only (and if required, needed only) beside `key`.

@@ -1,7 +1,10 @@
 //! `[[lights]]`: lights without a surface.
 
+use steradian::geometry::Vector;
 use steradian::quantity::Angle;
-use steradian::scene::description::{LightDescription, LightKind, PointPower, SpotBeam};
+use steradian::scene::description::{
+    EnvironmentAmount, EnvironmentDescription, LightDescription, LightKind, PointPower, SpotBeam,
+};
 
 use super::fields::Fields;
 use super::keys::Value;
@@ -10,7 +13,11 @@ use super::node::Node;
 use super::placement;
 use super::spectrum::LightSpectrum;
 use super::tables::{FALLOFF, FALLOFF_NAMES, FALLOFF_VALUE, LIGHTS};
+use super::texture;
 use super::value::{Read, choice};
+
+/// Where the middle of a picture of all directions is seen.
+const NORTH: Vector = Vector::new(0.0, 1.0, 0.0);
 
 /// Reads one light.
 pub(super) fn read(node: Node<'_>) -> Option<LightDescription> {
@@ -20,9 +27,7 @@ pub(super) fn read(node: Node<'_>) -> Option<LightDescription> {
         "spot" => spot(&fields),
         "directional" => directional(&fields),
         "luminaire" => luminaire::read(&fields),
-        _ => fields
-            .get("radiance")
-            .map(|radiance| LightKind::Environment { radiance }),
+        _ => environment(&fields),
     };
     let (name, group) = (fields.get("name"), fields.get("group"));
     let (spectrum, repeat) = (fields.get("spectrum"), placement::repeat(&fields));
@@ -69,6 +74,36 @@ fn directional(fields: &Fields<'_>) -> Option<LightKind> {
         direction: direction?,
         irradiance: irradiance?,
     })
+}
+
+fn environment(fields: &Fields<'_>) -> Option<LightKind> {
+    if !fields.has("file") {
+        let radiance = fields.get("radiance");
+        return radiance.map(|radiance| LightKind::Environment { radiance });
+    }
+    let middle = match fields.has("middle") {
+        true => placement::direction(fields, "middle"),
+        false => Some(NORTH),
+    };
+    let (amount, picture) = (picture_amount(fields), texture::of_directions(fields));
+    Some(LightKind::EnvironmentMap(EnvironmentDescription {
+        picture: picture?,
+        middle: middle?,
+        amount: amount?,
+    }))
+}
+
+fn picture_amount(fields: &Fields<'_>) -> Option<EnvironmentAmount> {
+    let unit = fields.get("unit").map(EnvironmentAmount::Unit);
+    if !fields.has("irradiance") {
+        return unit;
+    }
+    if fields.has("unit") {
+        let message = "keys `unit` and `irradiance` of the environment light exclude each other";
+        let span = fields.span_of("irradiance");
+        fields.context().error(span, message, None);
+    }
+    fields.get("irradiance").map(EnvironmentAmount::Irradiance)
 }
 
 fn power(fields: &Fields<'_>) -> Option<PointPower> {

@@ -77,7 +77,7 @@ impl Definitions {
         mut properties: Map<String, Json>,
         mut required: Vec<&str>,
     ) -> Json {
-        for key in keys.iter().filter(|key| key.need != Need::NotYet) {
+        for key in keys {
             properties.insert(key.name.to_owned(), self.key(key));
             if key.need == Need::Required && key.beside.is_none() && key.with.is_none() {
                 required.push(key.name);

@@ -125,6 +125,24 @@ pub(super) fn of_numbers(fields: &Fields<'_>) -> Option<Texture> {
     })
 }
 
+/// The picture of all directions in the key `file`: floating-point numbers are light, codes of integers are sRGB.
+pub(super) fn of_directions(fields: &Fields<'_>) -> Option<Arc<Bitmap>> {
+    let name = fields.get::<String>("file")?;
+    let span = fields.span_of("file");
+    let bytes = fields.context().read_file(&name, span.clone())?;
+    match image::read(&bytes, Encoding::Srgb) {
+        Ok(mut picture) => {
+            picture.interpolation = Interpolation::Nearest;
+            Some(Arc::new(picture))
+        }
+        Err(error) => {
+            let message = format!("{name}: {error}");
+            fields.context().error(span, message, None);
+            None
+        }
+    }
+}
+
 /// The picture of the key `texture`.
 fn picture(
     fields: &Fields<'_>,

@@ -1,5 +1,6 @@
 //! Scene files: every key, every kind of mistake, the shipped scenes, and files that are no scenes at all.
 
+mod environments;
 mod every_key;
 mod luminaires;
 mod generated;

@@ -10,16 +10,21 @@
 //! | p | density of the sampled direction | 1/sr |
 
 mod area;
+mod environment_map;
 mod far_field;
 mod luminaire;
 mod point;
 mod spot;
 
 pub use area::AreaLight;
+pub(crate) use environment_map::horizontal;
+pub use environment_map::{EnvironmentError, EnvironmentMap, EnvironmentSample};
 pub use far_field::{FarField, FarFieldError, FarFieldSample, Planes};
 pub use luminaire::{Body, Extent, LuminaireLight, Opening, Outlet};
 pub use point::PointLight;
 pub use spot::{Beam, SpotLight};
+
+use std::sync::Arc;
 
 use crate::geometry::{Direction, Point};
 use crate::quantity::{Intensity, Irradiance, Radiance};
@@ -88,6 +93,13 @@ pub enum Kind {
         /// The radiance.
         radiance: [Radiance; MAX_LANES],
     },
+    /// Radiance from all directions that a picture tells.
+    EnvironmentMap {
+        /// Where the picture is 1.
+        radiance: [Radiance; MAX_LANES],
+        /// The picture.
+        map: Arc<EnvironmentMap>,
+    },
     /// A shape that emits.
     Area(AreaLight),
     /// The intensity of a table, from a point or from an opening.
@@ -99,7 +111,7 @@ impl Light {
     pub fn is_delta(&self) -> bool {
         match &self.kind {
             Kind::Point(_) | Kind::Spot(_) | Kind::Directional { .. } => true,
-            Kind::Environment { .. } | Kind::Area(_) => false,
+            Kind::Environment { .. } | Kind::EnvironmentMap { .. } | Kind::Area(_) => false,
             Kind::Luminaire(light) => light.surface().is_none(),
         }
     }
@@ -130,7 +142,7 @@ impl Light {
             Kind::Directional { irradiance, .. } => {
                 irradiance.map(Irradiance::to_watts_per_square_metre)
             }
-            Kind::Environment { radiance } => {
+            Kind::Environment { radiance } | Kind::EnvironmentMap { radiance, .. } => {
                 radiance.map(Radiance::to_watts_per_square_metre_steradian)
             }
             Kind::Area(light) => light
@@ -142,8 +154,8 @@ impl Light {
 
     /// A sample as seen from `point` on a surface of this `normal`; `None` when the light gives nothing there.
     ///
-    /// `form` finds the geometry of a light that is a shape. A constant environment is not sampled here: a surface's own
-    /// directions sample it as well as any.
+    /// `form` finds the geometry of a light that is a shape. Environments are not sampled here: a constant one is sampled as well as any by
+    /// a surface's own directions, a picture by an [`EnvironmentMap`].
     pub fn sample<'a>(
         &self,
         point: Point,
@@ -163,7 +175,7 @@ impl Light {
                 normal_irradiance: *irradiance,
                 density: Density::Delta,
             }),
-            Kind::Environment { .. } => None,
+            Kind::Environment { .. } | Kind::EnvironmentMap { .. } => None,
             Kind::Area(light) => light.incident(form(light.shape), point, u),
             Kind::Luminaire(light) => light.incident(point, u, form),
         }?;

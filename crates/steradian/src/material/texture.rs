@@ -77,6 +77,14 @@ impl Site {
 }
 
 impl Texture {
+    /// A picture over the unit square.
+    pub fn whole(picture: &Arc<Bitmap>) -> Self {
+        Self {
+            pattern: Pattern::Bitmap(Arc::clone(picture)),
+            placement: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        }
+    }
+
     fn place(&self, site: &Site) -> [f64; 2] {
         let [u, v] = site.coordinates.map(f64::from);
         self.placement.map(|[a, b, c]| a * u + b * v + c)

@@ -371,8 +371,30 @@ pub enum LightKind {
         /// The radiance.
         radiance: Amount<Radiance, Luminance>,
     },
+    /// Radiance from everywhere that a picture tells.
+    EnvironmentMap(EnvironmentDescription),
     /// The intensity of a table, from a point or from an opening.
     Luminaire(Box<LuminaireDescription>),
+}
+
+/// A picture of all directions, and how much light it stands for.
+#[derive(Clone, Debug)]
+pub struct EnvironmentDescription {
+    /// All azimuths along its width, from overhead down along its height.
+    pub picture: Arc<Bitmap>,
+    /// The horizontal direction in which its middle is seen (any length).
+    pub middle: Vector,
+    /// How much light.
+    pub amount: EnvironmentAmount,
+}
+
+/// How much light comes from a picture of all directions.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub enum EnvironmentAmount {
+    /// What a 1 of the picture stands for.
+    Unit(Amount<Radiance, Luminance>),
+    /// On a horizontal plane that faces up, by all of it that is above the horizon.
+    Irradiance(Amount<Irradiance, Illuminance>),
 }
 
 /// A luminaire: its table, where it is, how it is turned, and how much of its light there is.

@@ -1,15 +1,20 @@
 //! Lights: emission of shapes and lights without a shape, in lanes.
 
+use std::sync::Arc;
+
 use super::curves::Curves;
 use super::description::{
-    EmissionAmount, EmissionDescription, LaneValues, LightDescription, LightKind,
-    LuminaireDescription, PointPower, ShapeDescription, SpotBeam,
+    EmissionAmount, EmissionDescription, EnvironmentAmount, EnvironmentDescription, LaneValues,
+    LightDescription, LightKind, LuminaireDescription, PointPower, ShapeDescription, SpotBeam,
 };
 use super::forms::{Forms, copies};
 use super::luminaires::{self, Mounting};
 use super::{Fault, Part, Problem};
 use crate::geometry::{Direction, Point, Vector};
-use crate::light::{AreaLight, Beam, Kind, Light, LightId, PointLight, SpotLight};
+use crate::light::{
+    AreaLight, Beam, EnvironmentError, EnvironmentMap, Kind, Light, LightId, PointLight, SpotLight,
+    horizontal,
+};
 use crate::quantity::{
     Amount, Angle, Area, Exitance, Flux, Intensity, Irradiance, Quantity, Radiance, SolidAngle,
 };
@@ -235,7 +240,33 @@ impl<'a> Builder<'a> {
             LightKind::Environment { radiance } => self
                 .amount(*radiance, shape)
                 .map_err(|message| ("radiance", message)),
+            LightKind::EnvironmentMap(environment) => self.environment(environment, shape),
             LightKind::Luminaire(luminaire) => self.luminaire(luminaire, shape),
+        }
+    }
+
+    /// What a 1 of a picture of all directions is.
+    fn environment(
+        &mut self,
+        environment: &EnvironmentDescription,
+        shape: Option<&LaneValues>,
+    ) -> Result<LaneCurve, Fault> {
+        super::materials::check_colours(&environment.picture, self.lanes)
+            .map_err(|message| ("file", message))?;
+        match environment.amount {
+            EnvironmentAmount::Unit(amount) => self
+                .amount(amount, shape)
+                .map_err(|message| ("unit", message)),
+            EnvironmentAmount::Irradiance(amount) => {
+                let of_one = horizontal(&environment.picture);
+                if of_one <= 0.0 {
+                    let message = "nothing above the horizon of the picture gives light";
+                    return Err(("irradiance", message.into()));
+                }
+                let lanes = self.amount(amount, shape);
+                let lanes = lanes.map_err(|message| ("irradiance", message))?;
+                Ok(lanes.map(|lane| lane / of_one))
+            }
         }
     }
 
@@ -312,6 +343,10 @@ fn kind(
         LightKind::Environment { .. } => Kind::Environment {
             radiance: power.map(Radiance::from_watts_per_square_metre_steradian),
         },
+        LightKind::EnvironmentMap(environment) => Kind::EnvironmentMap {
+            radiance: power.map(Radiance::from_watts_per_square_metre_steradian),
+            map: map_of(environment)?,
+        },
         LightKind::Luminaire(luminaire) => Kind::Luminaire(luminaires::luminaire(
             luminaire, step, power, mounting, known,
         )?),
@@ -320,8 +355,22 @@ fn kind(
 
 impl LightKind {
     fn is_infinitely_far(&self) -> bool {
-        matches!(self, Self::Directional { .. } | Self::Environment { .. })
+        matches!(
+            self,
+            Self::Directional { .. } | Self::Environment { .. } | Self::EnvironmentMap(_)
+        )
     }
+}
+
+fn map_of(environment: &EnvironmentDescription) -> Result<Arc<EnvironmentMap>, Fault> {
+    let map = EnvironmentMap::new(&environment.picture, environment.middle);
+    map.map(Arc::new).map_err(|error| {
+        let key = match error {
+            EnvironmentError::Upright => "middle",
+            _ => "file",
+        };
+        (key, error.to_string())
+    })
 }
 
 pub(super) fn position_of(position: Point) -> Result<Point, Fault> {

@@ -224,6 +224,12 @@ pub(super) fn textures(
 
 /// Bands know no colours, and no surface reflects more than it receives.
 fn check_bitmap(bitmap: &Bitmap, lanes: &Lanes) -> Result<(), String> {
+    check_colours(bitmap, lanes)?;
+    check_shares(bitmap)
+}
+
+/// Bands know no colours.
+pub(super) fn check_colours(bitmap: &Bitmap, lanes: &Lanes) -> Result<(), String> {
     lanes.check_colours().map_err(|error| error.to_string())?;
     let grey_only = !(lanes.is_rgb() || lanes.is_spectral());
     let texels = bitmap.texels();
@@ -237,7 +243,7 @@ fn check_bitmap(bitmap: &Bitmap, lanes: &Lanes) -> Result<(), String> {
                 .into(),
         );
     }
-    check_shares(bitmap)
+    Ok(())
 }
 
 /// What no picture of parts or of numbers may exceed.

@@ -241,6 +241,12 @@ impl Scene {
         self.groups.len() * self.lanes.count()
     }
 
+    /// Whether a picture tells what comes from everywhere.
+    pub fn has_environment_map(&self) -> bool {
+        let mut lights = self.lights.iter();
+        lights.any(|light| matches!(light.kind, Kind::EnvironmentMap { .. }))
+    }
+
     /// The constant environments.
     pub fn environments(&self) -> impl Iterator<Item = &Light> {
         self.lights

@@ -120,7 +120,9 @@ fn place_of(scene: &Scene, light: &Light) -> Option<Hull> {
     match &light.kind {
         LightKind::Point(point) => Some(vec![point.position]),
         LightKind::Spot(spot) => Some(vec![spot.position]),
-        LightKind::Directional { .. } | LightKind::Environment { .. } => None,
+        LightKind::Directional { .. }
+        | LightKind::Environment { .. }
+        | LightKind::EnvironmentMap { .. } => None,
         LightKind::Area(area) => Some(corners(&scene.surfaces().shape(area.shape).form)),
         LightKind::Luminaire(luminaire) => Some(match luminaire.surface() {
             Some((shape, _)) => corners(&scene.surfaces().shape(shape).form),

@@ -9,6 +9,7 @@ use super::tables::{Emitter, EmitterShape, Lanes4, Model, NO_TINT, Side, Tables,
 use super::towards::triangle_of;
 use crate::brdf::Brdf;
 use crate::geometry::{Direction, Frame, Point, Vector};
+use crate::light::EnvironmentMap;
 use crate::material::Site;
 use crate::shape::{Form, along_u};
 use crate::spectrum::Wavelengths;
@@ -122,6 +123,10 @@ impl Tables<'_> {
 
     /// The same for the point of an emitter that these numbers chose; `end` is near it.
     pub fn site_of_sample(&self, emitter: &Emitter, u: [f32; 2], end: [f32; 3]) -> Site {
+        if let EmitterShape::Everywhere(map) = &emitter.shape {
+            let sample = map.sample(u);
+            return sample.map_or(Site::NOWHERE, |sample| in_picture(map, sample.texel));
+        }
         let surfaces = self.scene.surfaces();
         let Some(shape) = emitter.surface else {
             return Site::NOWHERE;
@@ -138,6 +143,21 @@ impl Tables<'_> {
             EmitterShape::Parallelogram { .. } => site_of(form, 0, [u[0] - u[1], u[1]], point),
             _ => site_of(form, 0, [0.0; 2], point),
         }
+    }
+}
+
+/// What a picture of all directions shows of a direction in which nothing is met.
+pub(super) fn site_towards(map: &EnvironmentMap, direction: [f32; 3]) -> Site {
+    let direction = Direction::new(Vector::from(direction.map(f64::from)));
+    direction.map_or(Site::NOWHERE, |direction| {
+        in_picture(map, map.texel(direction))
+    })
+}
+
+fn in_picture(map: &EnvironmentMap, texel: [usize; 2]) -> Site {
+    Site {
+        coordinates: map.coordinates(texel),
+        ..Site::NOWHERE
     }
 }
 

@@ -167,7 +167,7 @@ fn towards(kind: &Kind, point: Point) -> Option<Direction> {
         Kind::Spot(light) => Direction::new(light.position - point).ok(),
         Kind::Directional { direction, .. } => Some(-*direction),
         Kind::Luminaire(light) => Direction::new(light.position - point).ok(),
-        Kind::Environment { .. } | Kind::Area(_) => None,
+        Kind::Environment { .. } | Kind::EnvironmentMap { .. } | Kind::Area(_) => None,
     }
 }
 

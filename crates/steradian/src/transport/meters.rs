@@ -51,6 +51,16 @@ pub(super) enum Meter<'a> {
     Flux(FluxMeter<'a>),
 }
 
+impl Meter<'_> {
+    fn along(rays: &RayBatch, index: usize) -> Self {
+        let ray = rays.ray(index);
+        Self::Ray {
+            origin: ray.origin,
+            direction: ray.direction,
+        }
+    }
+}
+
 /// A reading before sampling.
 pub(super) struct Prepared<'a> {
     pub index: usize,
@@ -319,6 +329,9 @@ impl<'t, 'a> Context<'t, 'a> {
         index: usize,
         exact: &mut [f64],
     ) -> Option<Meter<'a>> {
+        if hits.primitive[index] == MISS && self.scene.has_environment_map() {
+            return (self.max_depth >= 1).then(|| Meter::along(rays, index));
+        }
         if hits.primitive[index] == MISS {
             exact::environment(self.scene, exact);
             return None;

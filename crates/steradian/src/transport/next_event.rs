@@ -27,6 +27,7 @@ use super::path::Tracer;
 use super::profile::Stage;
 use super::tables::{Candidates, Choice, EmitterShape, Receiver, Tables};
 use super::towards::cone;
+use crate::geometry::{Direction, Vector};
 
 /// One pass over the vertices of a batch.
 pub(super) struct NextEvent<'a> {
@@ -294,6 +295,21 @@ impl NextEvent<'_> {
         workspace.watch.lap(Stage::Shadows);
     }
 
+    /// Density with which a direction in which nothing is met would have been sampled of a picture of all directions.
+    pub fn density_of(
+        tables: &Tables,
+        emitter: u32,
+        direction: [f32; 3],
+        (candidates, at): (Candidates, &Receiving),
+    ) -> f32 {
+        let EmitterShape::Everywhere(map) = &tables.emitters[emitter as usize].shape else {
+            return 0.0;
+        };
+        let direction = Direction::new(Vector::from(direction.map(f64::from)));
+        let density = direction.map_or(0.0, |direction| map.pdf(direction));
+        density as f32 * tables.rate(candidates, (emitter as usize, 0), || *at)
+    }
+
     /// Density with which a hit on an emitter would have been sampled from the ray's origin, which received light as told.
     pub fn density(
         tables: &Tables,
@@ -324,7 +340,8 @@ impl NextEvent<'_> {
             EmitterShape::Point { .. }
             | EmitterShape::Spot { .. }
             | EmitterShape::Directional { .. }
-            | EmitterShape::Luminaire { .. } => 0.0,
+            | EmitterShape::Luminaire { .. }
+            | EmitterShape::Everywhere(_) => 0.0,
         }
     }
 }

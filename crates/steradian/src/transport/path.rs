@@ -23,6 +23,7 @@
 use steradian_kernel::{InstructionSet, MISS};
 
 use super::aim::is_aimed_at;
+use super::appearance::site_towards;
 use super::columns::{BATCH, Flights, Luggage, Place, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::{Hit, hit};
@@ -32,7 +33,9 @@ use super::next_event::NextEvent;
 use super::profile::Stage;
 use super::scatter;
 use super::scattering::Encounter;
-use super::tables::{Candidates, Lanes4, Model, NO_EMITTER, OPAQUE, Receiver, Side, Tables};
+use super::tables::{
+    Candidates, Emitter, EmitterShape, Lanes4, Model, NO_EMITTER, OPAQUE, Receiver, Side, Tables,
+};
 use crate::material::Site;
 use crate::sampling::hash;
 use crate::spectrum::Wavelengths;
@@ -130,7 +133,9 @@ impl Tracer<'_> {
             let slot = workspace.flights.identity.slot[i];
             let wavelengths = &workspace.wavelengths[slot as usize];
             if workspace.hits.primitive[i] == MISS {
-                self.escape(&workspace.flights, i, wavelengths, &mut workspace.gathered);
+                let (flights, gathered) = (&workspace.flights, &mut workspace.gathered);
+                let place = (candidates, &workspace.receiving[slot as usize]);
+                self.escape((flights, i), wavelengths, place, gathered);
                 continue;
             }
             let hit = self.met(workspace, i);
@@ -253,15 +258,46 @@ impl Tracer<'_> {
         scatter::number_at(key, index, place)
     }
 
-    fn escape(&self, flights: &Flights, i: usize, wavelengths: &Wavelengths, gathered: &mut [f32]) {
-        for (group, radiance) in &self.tables.environment {
-            let radiance = self
-                .tables
-                .lanes_at(radiance, wavelengths, || Site::NOWHERE);
-            self.add(gathered, *group, flights.identity.slot[i], |lane| {
-                flights.throughput[lane][i] * radiance[lane]
+    /// Adds what comes from everywhere to a path that met nothing.
+    fn escape(
+        &self,
+        (flights, i): (&Flights, usize),
+        wavelengths: &Wavelengths,
+        place: (Candidates, &Receiving),
+        gathered: &mut [f32],
+    ) {
+        for everywhere in &self.tables.environment {
+            let ray = flights.rays.ray(i);
+            let (site, weight) = match self.tables.emitters.get(everywhere.emitter as usize) {
+                Some(emitter) => {
+                    let sampled = (emitter, everywhere.emitter);
+                    self.picture(sampled, ray.direction, flights.pdf[i], place)
+                }
+                None => (Site::NOWHERE, 1.0),
+            };
+            let radiance = &everywhere.radiance;
+            let radiance = self.tables.lanes_at(radiance, wavelengths, || site);
+            let slot = flights.identity.slot[i];
+            self.add(gathered, everywhere.group, slot, |lane| {
+                flights.throughput[lane][i] * radiance[lane] * weight
             });
         }
+    }
+
+    /// Where a picture of all directions is met, and the power-heuristic weight of having met it.
+    fn picture(
+        &self,
+        (emitter, number): (&Emitter, u32),
+        direction: [f32; 3],
+        pdf: f32,
+        place: (Candidates, &Receiving),
+    ) -> (Site, f32) {
+        let EmitterShape::Everywhere(map) = &emitter.shape else {
+            return (Site::NOWHERE, 1.0);
+        };
+        let density = NextEvent::density_of(self.tables, number, direction, place);
+        let ratio = density / pdf;
+        (site_towards(map, direction), 1.0 / (1.0 + ratio * ratio))
     }
 
     /// Power-heuristic weight of emission that a sampled direction met.

@@ -37,7 +37,11 @@ pub(super) fn towards(
     place: &Place,
     u: [f32; 2],
 ) -> Option<Towards> {
-    let mut towards = evenly_towards(tables, emitter, place, u)?;
+    directed(tables, emitter, evenly_towards(tables, emitter, place, u)?)
+}
+
+/// With what the emitter sends in this direction, if that is anything.
+fn directed(tables: &Tables, emitter: &Emitter, mut towards: Towards) -> Option<Towards> {
     if emitter.is_directed {
         towards.per_power *= tables.factor(emitter, -towards.direction);
     }
@@ -113,6 +117,17 @@ fn evenly_towards(
             let axis = Vec3::from_array(*axis);
             towards_point(vertex, Vec3::from_array(*position), |direction| {
                 beam.falloff(f64::from(-direction.dot(axis))) as f32
+            })
+        }
+        EmitterShape::Everywhere(map) => {
+            let sample = map.sample(u)?;
+            let direction = Vec3::from_array(sample.direction.to_array().map(|x| x as f32));
+            Some(Towards {
+                direction,
+                end: direction,
+                infinite: true,
+                per_power: (1.0 / sample.pdf) as f32,
+                density: sample.pdf as f32,
             })
         }
         EmitterShape::Luminaire { position, end } => {
@@ -192,7 +207,8 @@ pub(super) fn towards_triangle(
     };
     let (point, normal) = triangle_point(tables, first + triangle, u);
     let vertex = Vec3::from_array(place.point);
-    by_area(vertex, point, normal, *area, emitter.two_sided)
+    let towards = by_area(vertex, point, normal, *area, emitter.two_sided)?;
+    directed(tables, emitter, towards)
 }
 
 fn triangle_point(tables: &Tables, number: u32, [u, v]: [f32; 2]) -> (Vec3, Vec3) {

@@ -86,14 +86,39 @@ pub const LIGHTS: Family = Family {
         ),
         Kind::new(
             "environment",
-            "The same radiance from everywhere",
+            "Radiance from everywhere: the same, or that of a picture of all directions",
             &[
-                Key::required(
+                Key::one_of(
+                    "environment",
                     "radiance",
                     Amount::<Radiance, Luminance>::VALUE,
-                    "Its radiance",
+                    "The same radiance from everywhere",
                 ),
-                Key::not_yet("file"),
+                Key::one_of(
+                    "environment",
+                    "file",
+                    Value::File,
+                    "A picture (HDR or EXR; PNG and JPEG as sRGB) of all directions: azimuth along its width, from overhead down along its height",
+                ),
+                Key::optional(
+                    "middle",
+                    Value::Direction,
+                    "Horizontal direction in which the middle of the picture is seen; +y unless given",
+                )
+                .beside("file"),
+                Key::default(
+                    "unit",
+                    Amount::<Radiance, Luminance>::VALUE,
+                    "\"1 W/(m2 sr)\"",
+                    "What a 1 of the picture stands for",
+                )
+                .beside("file"),
+                Key::optional(
+                    "irradiance",
+                    Amount::<Irradiance, Illuminance>::VALUE,
+                    "Instead of `unit`: on a horizontal plane that faces up, by all of the picture above the horizon",
+                )
+                .beside("file"),
             ],
         ),
         Kind::new(

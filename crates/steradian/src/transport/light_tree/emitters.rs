@@ -139,7 +139,7 @@ fn evenly(scene: &Scene, emitter: &Emitter, strength: f64) -> Option<Bounds> {
             beam_cone(double(*axis), beam),
             strength,
         ),
-        EmitterShape::Directional { .. } => None,
+        EmitterShape::Directional { .. } | EmitterShape::Everywhere(_) => None,
     }
 }
 

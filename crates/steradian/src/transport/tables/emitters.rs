@@ -1,5 +1,7 @@
 //! Emitters: the lights that next-event estimation samples, and how likely each is chosen by power.
 
+use std::sync::Arc;
+
 use super::outlines::outline;
 use super::{Emitter, EmitterShape, NO_EMITTER, Tinted};
 use crate::geometry::{Frame, Point};
@@ -60,6 +62,7 @@ fn emitter_shape(scene: &Scene, light: &Light) -> Option<EmitterShape> {
             towards: single((-*direction).to_array()),
         }),
         Kind::Environment { .. } => None,
+        Kind::EnvironmentMap { map, .. } => Some(EmitterShape::Everywhere(Arc::clone(map))),
         Kind::Area(light) => area_shape(scene, light.shape),
         Kind::Luminaire(light) => match light.outlet {
             Outlet::Point { end } => Some(EmitterShape::Luminaire {
@@ -206,6 +209,7 @@ impl EmitterShape {
             Self::Point { .. } | Self::Luminaire { .. } => 4.0 * PI,
             Self::Spot { beam, .. } => beam.solid_angle().to_steradians(),
             Self::Directional { .. } => 0.25 * PI * extent * extent,
+            Self::Everywhere(map) => map.integral() * 0.25 * PI * extent * extent,
         }
     }
 }

@@ -12,7 +12,7 @@ use sides::{Tints, emitting};
 
 use super::light_tree::{Receiving, Selection};
 use super::media::Beside;
-use crate::light::{Beam, Kind};
+use crate::light::{Beam, EnvironmentMap, Kind, Light};
 use crate::material::{ColorLanes, Hue, MaterialId, Opacity, Tint};
 use crate::scene::Scene;
 use crate::shape::ShapeId;
@@ -113,6 +113,15 @@ pub(super) const OPAQUE: u32 = u32::MAX;
 /// Marks emission that only a surface's own directions find.
 pub(super) const NO_EMITTER: u32 = u32::MAX;
 
+/// Radiance from everywhere.
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Everywhere {
+    pub group: u32,
+    pub radiance: Tinted,
+    /// Number of the emitter of a picture; [`NO_EMITTER`] of what is the same in all directions.
+    pub emitter: u32,
+}
+
 /// A light that next-event estimation samples.
 #[derive(Clone, Debug)]
 pub(super) struct Emitter {
@@ -174,6 +183,8 @@ pub(super) enum EmitterShape {
     Directional {
         towards: [f32; 3],
     },
+    /// A picture of all directions.
+    Everywhere(Arc<EnvironmentMap>),
     /// A luminaire without extent.
     Luminaire {
         position: [f32; 3],
@@ -215,8 +226,8 @@ pub(super) struct Tables<'a> {
     pub cumulative: Vec<f32>,
     /// How one of many is chosen: of all emitters, and of those with extent.
     selections: [Option<Selection>; 2],
-    /// Radiance of everywhere, by group.
-    pub environment: Vec<(u32, Tinted)>,
+    /// What comes from everywhere.
+    pub environment: Vec<Everywhere>,
     /// What varies over surfaces or with the wavelength.
     pub tints: Vec<Tint>,
     /// Of sides that are not opaque.
@@ -265,11 +276,16 @@ impl<'a> Tables<'a> {
         });
         let sides: Vec<_> = sides.collect();
         let lets_pass = sides.iter().any(Side::lets_pass);
-        let everywhere = scene.lights().iter().zip(&powers);
-        let everywhere =
-            everywhere.filter(|(light, _)| matches!(light.kind, Kind::Environment { .. }));
-        let environment = everywhere.map(|(light, power)| (light.group, *power));
-        let environment = environment.collect();
+        let everywhere = |(number, light): (usize, &Light)| match &light.kind {
+            Kind::Environment { .. } | Kind::EnvironmentMap { .. } => Some(Everywhere {
+                group: light.group,
+                radiance: powers[number],
+                emitter: emitter_of_light[number],
+            }),
+            _ => None,
+        };
+        let environment = scene.lights().iter().enumerate();
+        let environment = environment.filter_map(everywhere).collect();
         let grid = scene.lanes().grid();
         let bake = |curve: &Arc<Curve>| grid.map(|grid| grid.bake(curve));
         Self {

@@ -5,7 +5,7 @@
 use super::super::media::Beside;
 use super::{Model, NO_EMITTER, NO_TINT, OPAQUE, Side, Tinted};
 use crate::light::{Kind, Light, LightId};
-use crate::material::{self, Hue, Material, MaterialId, Opacity, Tint};
+use crate::material::{self, Hue, Material, MaterialId, Opacity, Texture, Tint};
 use crate::scene::Scene;
 
 /// Collects what varies.
@@ -36,6 +36,7 @@ impl Tints {
     pub fn of_light(&mut self, light: &Light) -> Tinted {
         let textures = match &light.kind {
             Kind::Area(area) => area.textures.clone(),
+            Kind::EnvironmentMap { map, .. } => vec![Texture::whole(map.picture())],
             _ => vec![],
         };
         self.add(Tint {
