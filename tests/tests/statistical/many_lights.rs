@@ -147,7 +147,7 @@ fn all_lamps_give_the_sum_of_each_ten() {
 
 /// Corners of a polygon about half as wide as the room, near its back wall, with its front to the middle.
 fn corner(k: usize) -> Point {
-    let (sin, cos) = (k as f64 * TAU / CORNERS as f64).sin_cos();
+    let (sin, cos) = libm::sincos(k as f64 * TAU / CORNERS as f64);
     p(3.0 + 1.5 * cos, 4.7 - 0.2 * sin, 1.4 + 1.2 * sin)
 }
 
