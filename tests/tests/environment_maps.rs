@@ -193,6 +193,29 @@ fn floors_and_mirrors_reflect_the_sky() {
     assert_close("mirror", found, 0.9 * texel, 1e-5);
 }
 
+/// A floor under the sky and twelve lamps, one of which it chooses, throws back ρ/π (E + Σ I cosθ/r²).
+#[test]
+fn a_sky_shines_beside_many_lamps() {
+    let sunny = sunny();
+    let Ok(map) = EnvironmentMap::new(&sunny, NORTH) else {
+        panic!("a map")
+    };
+    let looks = radiance_along(p(0.0, 0.0, 1.0), v(0.0, 0.0, -1.0));
+    let mut scene = under(sky(&sunny, unit(1.0)), looks);
+    scene.materials = vec![lambertian("floor", 0.4)];
+    scene.shapes = vec![square(20.0, 0.0).made_of("floor")];
+    let mut lamps = 0.0;
+    for k in 0..12 {
+        let at = v(0.5 * f64::from(k) - 2.0, 1.0, 2.0);
+        scene
+            .lights
+            .push(point_light(Point::ORIGIN + at, intensity(1.0)));
+        lamps += 2.0 * libm::pow(at.dot(at), -1.5);
+    }
+    let found = reading(&measured(&scene, &rel_error(5e-3)), "it").estimate;
+    assert_agrees("floor", &found, 0.4 / PI * (map.horizontal() + lamps), 0.0);
+}
+
 /// Colours are lanes in `rgb`; a grey picture is grey at all wavelengths; bands know no colours.
 #[test]
 fn pictures_have_lanes_in_every_mode() {

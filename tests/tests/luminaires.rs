@@ -284,6 +284,42 @@ fn the_flux_of_every_light_arrives() {
     }
 }
 
+/// Twelve tubes in a ring, of which a place chooses single facets, light the floor as one after the other does, of which it does not.
+#[test]
+fn many_openings_light_as_each_does() {
+    let (table, tube) = (fading(), OPENINGS[6]);
+    let lamp = |k: i32| {
+        let (sin, cos) = libm::sincos(PI / 6.0 * f64::from(k));
+        hanging(p(2.0 * cos, 2.0 * sin, 1.5), &table, tube)
+    };
+    let under = |lamps: Vec<LightDescription>| {
+        let floor = square(8.0, 0.0).made_of("grey");
+        let mut scene = scene([lambertian("grey", 0.5)], [floor], lamps);
+        scene.spectrum = visible();
+        let places = [p(0.0, 0.0, 0.0), p(1.3, 0.4, 0.0)];
+        let rays = places.map(|place| (place + v(0.05, 0.0, 0.2), v(-0.05, 0.0, -0.2)));
+        let points = places.map(|place| (place, UP));
+        scene.sensors = vec![
+            sensor("direct", irradiance_at(points)),
+            sensor(
+                "seen",
+                SensorKind::Radiance {
+                    rays: rays.to_vec(),
+                },
+            ),
+        ];
+        measured(&scene, &samples(1 << 16)).readings()
+    };
+    let single: Vec<_> = (0..12).map(|k| under(vec![lamp(k)])).collect();
+    for (k, all) in under((0..12).map(lamp).collect()).iter().enumerate() {
+        let sum: f64 = single.iter().map(|found| found[k].estimate.value).sum();
+        let squares = single.iter().map(|found| found[k].estimate.std_error);
+        let error: f64 = squares.map(|error| error * error).sum::<f64>().sqrt();
+        assert!(all.estimate.std_error < 5e-3 * sum, "{all:?}");
+        assert_agrees("twelve lamps", &all.estimate, sum, 4.0 * error);
+    }
+}
+
 /// E = (1/A) ∫ I(d) cosθ/r² dA by the midpoint rule of 400 × 200 cells, whose error is below 1e-5 from .3 m.
 fn near_field(table: &FarField, height: f64, [x, y]: [f64; 2]) -> f64 {
     let (columns, rows) = (400, 200);
