@@ -96,19 +96,24 @@ struct Row {
     from: f64,
     to: f64,
     per_length: f64,
+    lights: u32,
 }
 
-const LIGHTS_OF_A_ROW: u32 = 100_000;
+/// So many lights are summed exactly.
+const SUMMED: u32 = 1000;
+
+/// Of so many some are chosen.
+const CHOSEN: u32 = 100_000;
 
 impl Row {
     fn step(self) -> f64 {
-        (self.to - self.from) / f64::from(LIGHTS_OF_A_ROW)
+        (self.to - self.from) / f64::from(self.lights)
     }
 
     fn repeated(self, light: impl Fn(Point, PointPower) -> LightDescription) -> SceneDescription {
         let first = p(self.from + 0.5 * self.step(), 0.0, self.height);
         let repeat = Repeat {
-            count: vec![LIGHTS_OF_A_ROW],
+            count: vec![self.lights],
             step: vec![Vector::new(self.step(), 0.0, 0.0)],
         };
         let power = intensity(self.per_length * self.step());
@@ -145,6 +150,7 @@ fn finite_line(case: &Case) -> Vec<Experiment> {
         from: case.number("x_from"),
         to: case.number("x_to"),
         per_length: case.number("intensity_per_length"),
+        lights: SUMMED,
     };
     vec![row.isotropic(0.0), row.lambertian(0.0)]
 }
@@ -158,6 +164,7 @@ fn infinite_line(case: &Case) -> Vec<Experiment> {
         from: -end,
         to: end,
         per_length,
+        lights: CHOSEN,
     };
     let cut = per_length * height / (end * end);
     vec![row.isotropic(cut), row.lambertian(cut * height / end)]
