@@ -22,7 +22,8 @@ pub fn encode(run: &Run<'_>) -> String {
     }
     text.push_str(&columns(run.measurements, &readings).to_string());
     text.push('\n');
-    let statistics = run.measurements.statistics();
+    let mut statistics = run.measurements.statistics();
+    statistics.retain(|found| is_grid(run.measurements, &found.sensor));
     if !statistics.is_empty() {
         text.push_str(&summary(&statistics).to_string());
         text.push('\n');
@@ -96,7 +97,13 @@ fn cells(measurements: &Measurements, reading: &Reading, shown: Parts) -> Vec<St
     cells
 }
 
-/// What the points of each sensor have in common.
+/// Whether the points of a sensor stand for an area: of points listed one by one a mean says little.
+fn is_grid(measurements: &Measurements, sensor: &str) -> bool {
+    let mut sensors = measurements.sensors.iter();
+    sensors.any(|record| record.name == sensor && record.layout.is_some())
+}
+
+/// What the points of each grid have in common.
 fn summary(statistics: &[Statistics]) -> Columns {
     let headings = [
         "sensor", "quantity", "mean", "min", "at #", "max", "at #", "min/mean", "min/max",
