@@ -13,12 +13,14 @@ use crate::result::{Format, Readings};
 use crate::status::{Failure, Outcome};
 use crate::tolerance;
 
+const SOLVE: &str = "Find factors for the groups of --vary that give this reading: 'desk: mean = 500 lx', 'room: min >= 300 lx', \
+    'desk[12] <= 800 lx'; may be given several times";
+
 /// Which readings are wanted, and what may change for them.
 #[derive(Args, Debug)]
 pub struct Question {
-    /// Find factors for the groups of --vary that give this reading: 'desk: mean = 500 lx', 'room: min >= 300 lx',
-    /// 'desk[12] <= 800 lx'; may be given several times
-    #[arg(long, value_name = "TARGET", requires = "vary", conflicts_with = "shard", value_parser = wanted)]
+    /// Readings that are wanted.
+    #[arg(help = SOLVE, long, value_name = "TARGET", requires = "vary", conflicts_with = "shard", value_parser = wanted)]
     solve: Vec<Wanted>,
     /// Light groups to find factors for, each from 0 to 1 unless told otherwise: ceiling,window=0..2
     #[arg(long, value_name = "GROUPS", requires = "solve", value_delimiter = ',', value_parser = vary)]

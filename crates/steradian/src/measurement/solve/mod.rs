@@ -16,7 +16,7 @@
 //! within their bounds. Means and points are linear in x. A least or greatest reading is that of one point, found anew until it
 //! stays the same (Newton's method on a piecewise linear function). An inequality counts only where it would else be broken.
 //!
-//! All this is done again with each replicate left out, and the [jackknife](crate::estimation::jackknife) gives each factor its error:
+//! All this is done again with each replicate left out, and the [jackknife] gives each factor its error:
 //! the errors of all coefficients, with their covariances. The achieved readings, on the other hand, are those of the
 //! factors found, taken as exact: what a run of the scene with lights so dimmed would find.
 
