@@ -203,13 +203,14 @@ impl Measurements {
 
     /// What each light group adds to the value.
     fn shares(&self, point: &PointRecord, quantity: &Readout) -> Vec<(String, Estimate)> {
-        let share = |wanted: &String| {
-            self.reading_of(point, |group, lane| {
-                f64::from(u8::from(self.groups[group] == *wanted)) * quantity.weights[lane]
-            })
-        };
+        let share = |wanted: &String| self.reading_of(point, self.share_of(wanted, quantity));
         let groups = self.group_names().into_iter();
         groups.map(|name| (name.clone(), share(name))).collect()
+    }
+
+    /// Weights of the columns of one light group, by its name.
+    fn share_of(&self, name: &str, quantity: &Readout) -> impl Fn(usize, usize) -> f64 {
+        move |group, lane| f64::from(u8::from(self.groups[group] == name)) * quantity.weights[lane]
     }
 
     /// Σ factor(group) · weight(group, lane) · column, at the moment asked for.

@@ -9,6 +9,14 @@ fn number(value: &Value) -> f64 {
     value["value"].as_f64().unwrap()
 }
 
+/// What an observer sees in a scene, in few pixels.
+fn observed(scene: &str, eye: &str, look: &str) -> Value {
+    let observer = ["glare", scene, "--observer", eye, "--look", look];
+    let effort = ["--resolution", "64x64", "--samples", "4"];
+    let arguments = [&observer[..], &effort, &["--format", "json"]].concat();
+    serde_json::from_str(&steradian(&arguments).fine()).unwrap()
+}
+
 /// 64 × 64 pixels of 1 W/(m² sr), which is 179 cd/m².
 fn even(folder: &Folder) -> String {
     let mut bytes = b"Pf\n64 64\n-1.0\n".to_vec();
@@ -78,21 +86,7 @@ fn an_observer_under_an_even_sky_sees_it() {
     let scene = "[scene]\nname = \"Sky\"\nspectrum = \"rgb\"\n\n[[lights]]\nkind = \"environment\"\nradiance = \"1000 cd/m2\"\n";
     let path = folder.path("sky.toml");
     std::fs::write(&path, scene).unwrap();
-    let arguments = [
-        "glare",
-        &path,
-        "--observer",
-        "0,0,1.2",
-        "--look",
-        "1,0.2,0",
-        "--resolution",
-        "64x64",
-        "--samples",
-        "4",
-        "--format",
-        "json",
-    ];
-    let object: Value = serde_json::from_str(&steradian(&arguments).fine()).unwrap();
+    let object = observed(&path, "0,0,1.2", "1,0.2,0");
     assert!((number(&object["mean_luminance"]) / 1000.0 - 1.0).abs() < 1e-6);
     assert!((number(&object["illuminance"]) / (1000.0 * PI) - 1.0).abs() < 1.0 / 64.0);
     assert_eq!(object["error_layer"], true);
@@ -112,21 +106,7 @@ fn disc(folder: &Folder, wall: bool) -> Value {
     }
     let path = folder.path("disc.toml");
     std::fs::write(&path, scene).unwrap();
-    let arguments = [
-        "glare",
-        &path,
-        "--observer",
-        "0,0,0",
-        "--look",
-        "1,0,0",
-        "--resolution",
-        "64x64",
-        "--samples",
-        "4",
-        "--format",
-        "json",
-    ];
-    let object: Value = serde_json::from_str(&steradian(&arguments).fine()).unwrap();
+    let object = observed(&path, "0,0,0", "1,0,0");
     object["lights"].clone()
 }
 

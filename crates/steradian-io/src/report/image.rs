@@ -1,6 +1,7 @@
 //! A radiance picture with its standard errors, as the picture formats take it.
 
 use serde::Serialize;
+use steradian::spectrum::REC709_LUMINANCE;
 use steradian::transport::Picture;
 
 use super::error::ReportError;
@@ -164,7 +165,8 @@ impl RadianceImage {
         let [red, green, blue] = [0, 1, 2].map(|lane| &self.channels[lane].values);
         let pixel = |at: usize| {
             let [r, g, b] = [red, green, blue].map(|lane| f64::from(lane[at]));
-            0.2126 * r + 0.7152 * g + 0.0722 * b
+            let [of_red, of_green, of_blue] = REC709_LUMINANCE;
+            of_red * r + of_green * g + of_blue * b
         };
         let pixels = (0..self.width * self.height).map(pixel).collect();
         (pixels, "W/(m2 sr) as seen", 1.0)

@@ -6,7 +6,7 @@
 //! column, in the radiant unit of the sensor's quantity. With them lamps can be dimmed or switched afterwards: weigh and add
 //! the means of each replicate, and the spread of the sums gives their error, covariances included.
 //!
-//! `statistics` has mean, extremes, `uniformity` (U₀ = min/mean) and `diversity` (min/max) of each sensor with several points; those that noise
+//! `statistics` has mean (also by light group), extremes, `uniformity` (U₀ = min/mean) and `diversity` (min/max) of each sensor with several points; those that noise
 //! biases say so. `relit` has the factors of light groups that are not 1; all readings are with them.
 //!
 //! A run that was asked for an interval states it as `over`, and in each reading as `exposure` what the reading adds up to, by
@@ -128,6 +128,7 @@ fn statistics(found: &Statistics) -> Value {
         "max": extreme(&found.max),
         "uniformity": found.uniformity.as_ref().map(ratio),
         "diversity": found.diversity.as_ref().map(ratio),
+        "groups": parts(&found.groups),
     })
 }
 

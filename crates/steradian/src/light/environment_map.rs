@@ -41,9 +41,7 @@ use thiserror::Error;
 use crate::geometry::{Direction, Frame, Vector};
 use crate::material::{Bitmap, Interpolation};
 use crate::sampling::discrete::Discrete;
-
-/// Luminance weights of linear Rec.709.
-const REC709: [f64; 3] = [0.2126, 0.7152, 0.0722];
+use crate::spectrum::REC709_LUMINANCE;
 
 /// Why a picture is no environment.
 #[derive(Copy, Clone, Debug, Error, PartialEq, Eq)]
@@ -195,7 +193,8 @@ pub(crate) fn horizontal(picture: &Bitmap) -> f64 {
 
 fn luminance(picture: &Bitmap, index: usize) -> f64 {
     let [r, g, b, _] = picture.texels().at(index).map(f64::from);
-    REC709[0] * r + REC709[1] * g + REC709[2] * b
+    let [red, green, blue] = REC709_LUMINANCE;
+    red * r + green * g + blue * b
 }
 
 /// sinλ at the lower and the upper border of a row.

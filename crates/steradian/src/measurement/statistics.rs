@@ -40,6 +40,8 @@ pub struct Statistics {
     pub uniformity: Option<Estimate>,
     /// U_d = minimum / maximum; none where the maximum is zero.
     pub diversity: Option<Estimate>,
+    /// What each light group gives of the mean, by name.
+    pub groups: Vec<(String, Estimate)>,
 }
 
 /// A least or greatest reading.
@@ -80,6 +82,11 @@ impl Measurements {
         };
         let ratio = |below: f64, function| (below != 0.0).then(|| estimate(function));
         let whole = readings.values(None);
+        let share = |name: &String| {
+            let own = self.share_of(name, quantity);
+            let readings = self.resampled(&sensor.points, own);
+            (name.clone(), readings.estimate(self.confidence, mean))
+        };
         Statistics {
             sensor: sensor.name.clone(),
             quantity: quantity.name.clone(),
@@ -90,6 +97,7 @@ impl Measurements {
             max: extreme(highest, greatest),
             uniformity: ratio(mean(whole), |values| least(values) / mean(values)),
             diversity: ratio(greatest(whole), |values| least(values) / greatest(values)),
+            groups: self.group_names().into_iter().map(share).collect(),
         }
     }
 }
@@ -133,6 +141,28 @@ mod tests {
         assert_eq!(found.uniformity.map(|u| u.value), Some(0.5));
         assert_eq!(found.diversity.map(|u| u.value), Some(2.0 / 6.0));
         assert_eq!(found.diversity.map(|u| u.method), Some(Method::ClosedForm));
+    }
+
+    /// Groups of 1 lx and of 3 lx in the mean, each 10 % off at each of 4 points and 16 replicates: they add up to the mean, and each has the
+    /// error of its own replicates, .1 √((1² + 1² + 1² + 1²)/16)/4 = .0125 and three times that, which 15 · 4 squares know to 9 %: five of these.
+    #[test]
+    fn groups_have_their_part_of_the_mean_with_its_error() {
+        let run = Synthetic::new(&["lamp", "window"], &[[1.0, 3.0]; 4]).sampled(5, 0.1);
+        let found = &run.statistics()[0];
+        let names: Vec<_> = found.groups.iter().map(|(name, _)| &name[..]).collect();
+        assert_eq!(names, ["lamp", "window"]);
+        let sum: f64 = found.groups.iter().map(|(_, part)| part.value).sum();
+        assert!((sum - found.mean.value).abs() < 1e-12);
+        for ((_, part), truth) in found.groups.iter().zip([1.0, 3.0]) {
+            assert!(
+                (part.std_error / (0.0125 * truth) - 1.0).abs() < 0.45,
+                "{part:?}"
+            );
+            assert!(
+                (part.value - truth).abs() < 5.0 * part.std_error,
+                "{part:?}"
+            );
+        }
     }
 
     #[test]

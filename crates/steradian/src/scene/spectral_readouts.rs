@@ -17,7 +17,9 @@ use super::channels::{bin_name, intervals, table_name};
 use super::description::{Bins, Response};
 use crate::sensor::Readout;
 use crate::sensor::readout::Quantity;
-use crate::spectrum::{Lanes, MELANOPIC_EFFICACY_OF_D65, PHOTOPIC_EFFICACY, RADIANT, VISIBLE};
+use crate::spectrum::{
+    Lanes, MELANOPIC_EFFICACY_OF_D65, PHOTOPIC_EFFICACY, RADIANT, REC709_LUMINANCE, VISIBLE,
+};
 
 /// Readouts of one quantity, of a sensor that is no camera.
 pub(super) fn readouts(
@@ -54,7 +56,8 @@ pub(super) fn of_camera(quantity: &Quantity, radiant: bool, photometric: bool) -
         all.push(quantity.readout(quantity.radiant(), vec![0.0, 0.0, 0.0, 1.0], 1.0, false));
     }
     if photometric {
-        let luminance = vec![0.2126, 0.7152, 0.0722, 0.0];
+        let [red, green, blue] = REC709_LUMINANCE;
+        let luminance = vec![red, green, blue, 0.0];
         all.push(quantity.readout(quantity.photometric(), luminance, PHOTOPIC_EFFICACY, true));
     }
     all

@@ -36,7 +36,7 @@ pub use colour::{Matrix, apply, chromaticity, rgb_curves, rgb_from_xyz, xyz_from
 pub use curve::{Beyond, Curve, CurveError};
 pub use glass::Glass;
 pub use illuminant::{Illuminant, daylight};
-pub use lanes::{Channel, LaneCurve, LaneError, Lanes, MAX_LANES, RADIANT};
+pub use lanes::{Channel, LaneCurve, LaneError, Lanes, MAX_LANES, RADIANT, REC709_LUMINANCE};
 pub use metal::Metal;
 pub use observer::{Observer, photopic, scotopic};
 pub use photon::photon_energy;

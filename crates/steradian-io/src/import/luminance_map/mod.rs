@@ -25,8 +25,6 @@ use crate::files::{Files, reason};
 
 /// Luminous efficacy where a picture states none, in lm/W: Radiance's.
 const EFFICACY: f64 = 179.0;
-/// Luminance of Rec.709's primaries.
-const REC709: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// A picture of luminance.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,9 +7,10 @@ use exr::prelude::{
 };
 use serde_json::Value;
 
-use super::{EFFICACY, LuminanceMap, LuminanceMapError, REC709};
+use super::{EFFICACY, LuminanceMap, LuminanceMapError};
 use crate::import::image::{self, Encoding, ImageError};
 use crate::report::exr::ERROR_LAYER;
+use steradian::spectrum::REC709_LUMINANCE;
 
 /// Lanes and their weights in cd/m² per unit.
 type Weights = Vec<(String, f64)>;
@@ -47,7 +48,7 @@ fn weights(layer: &AnyLayer) -> Result<Weights, LuminanceMapError> {
         let white = layer.attributes.white_luminance.map_or(EFFICACY, f64::from);
         return Ok(colours
             .into_iter()
-            .zip(REC709.map(|weight| white * weight))
+            .zip(REC709_LUMINANCE.map(|weight| white * weight))
             .collect());
     };
     let facts: Value = serde_json::from_str(&facts.to_string()).unwrap_or_default();

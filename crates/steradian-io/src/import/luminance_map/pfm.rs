@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use super::{EFFICACY, LuminanceMap, LuminanceMapError, REC709, weighted};
+use super::{EFFICACY, LuminanceMap, LuminanceMapError, weighted};
 use crate::files::Files;
 use crate::import::image::ImageError;
 use crate::report::pfm::error_path;
+use steradian::spectrum::REC709_LUMINANCE;
 
 pub(super) fn read(
     path: &Path,
@@ -60,7 +61,7 @@ fn decode(bytes: &[u8]) -> Result<([u32; 2], Vec<f64>), LuminanceMapError> {
         .map(float)
         .collect();
     let luminance = |pixel: &[f32]| match pixel {
-        [r, g, b] => EFFICACY * weighted([*r, *g, *b], REC709),
+        [r, g, b] => EFFICACY * weighted([*r, *g, *b], REC709_LUMINANCE),
         grey => EFFICACY * f64::from(grey[0]),
     };
     let rows = floats.chunks_exact(lanes * width).rev();

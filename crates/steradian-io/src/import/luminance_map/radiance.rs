@@ -4,8 +4,9 @@ use steradian::material::Texels;
 use steradian::quantity::Angle;
 use steradian::sensor::{Fisheye, Projection};
 
-use super::{EFFICACY, LuminanceMap, LuminanceMapError, REC709, weighted};
+use super::{EFFICACY, LuminanceMap, LuminanceMapError, weighted};
 use crate::import::image::{self, Encoding};
+use steradian::spectrum::REC709_LUMINANCE;
 
 /// Luminance of Radiance's primaries.
 const PRIMARIES: [f64; 3] = [0.265, 0.670, 0.065];
@@ -22,7 +23,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<LuminanceMap, LuminanceMapError> {
     let is_ours = header
         .iter()
         .any(|line| line.starts_with("SOFTWARE=Steradian"));
-    let weights = if is_ours { REC709 } else { PRIMARIES };
+    let weights = if is_ours { REC709_LUMINANCE } else { PRIMARIES };
     let luminance = |[r, g, b, _]: &[f32; 4]| EFFICACY * weighted([*r, *g, *b], weights);
     Ok(LuminanceMap {
         size,

@@ -1,5 +1,6 @@
 //! Which readings of a result a picture shows.
 
+use steradian::estimation::Estimate;
 use steradian::measurement::{Measurements, Reading, Statistics};
 use steradian::sensor::Layout;
 
@@ -47,6 +48,22 @@ impl Subject {
         }
         subjects.retain(|subject| !subject.readings.is_empty());
         subjects
+    }
+
+    /// The mean over the points; of a single point its value.
+    pub fn mean(&self) -> Option<&Estimate> {
+        match &self.statistics {
+            Some(found) => Some(&found.mean),
+            None => self.readings.first().map(|reading| &reading.estimate),
+        }
+    }
+
+    /// What each light group gives of [`mean`](Self::mean), by name.
+    pub fn groups(&self) -> &[(String, Estimate)] {
+        match &self.statistics {
+            Some(found) => &found.groups,
+            None => self.readings.first().map_or(&[], |reading| &reading.groups),
+        }
     }
 
     /// Whether a [`plan`](super::plan) can show it.

@@ -1,5 +1,6 @@
 //! What light groups give: of each sensor, or of each point of one.
 
+use steradian::estimation::Estimate;
 use steradian::measurement::{Measurements, Reading};
 
 use super::choice::Subject;
@@ -94,39 +95,26 @@ fn rows(subjects: &[&Subject]) -> Vec<Row> {
 fn of_points(subject: &Subject) -> Vec<Row> {
     let row = |reading: &Reading| Row {
         name: format!("point {}", reading.index),
-        parts: reading.groups.iter().map(|(_, part)| part.value).collect(),
+        parts: values(&reading.groups),
         sum: with_unit(&reading.estimate, &reading.unit),
     };
     subject.readings.iter().map(row).collect()
 }
 
 fn mean(subject: &Subject) -> Row {
-    let count = subject.readings.len();
-    let part = |group: usize| {
-        let of_points = subject.readings.iter();
-        let sum: f64 = of_points.map(|reading| reading.groups[group].1.value).sum();
-        sum / count as f64
-    };
-    let groups = subject
-        .readings
-        .first()
-        .map_or(0, |first| first.groups.len());
-    let parts: Vec<f64> = (0..groups).map(part).collect();
-    let (name, sum) = match &subject.readings[..] {
-        [single] => (
-            subject.sensor.clone(),
-            with_unit(&single.estimate, &single.unit),
-        ),
-        _ => {
-            let name = format!("{} (mean of {count})", subject.sensor);
-            let mean = subject
-                .statistics
-                .as_ref()
-                .map(|found| with_unit(&found.mean, &found.unit));
-            (name, mean.unwrap_or_default())
-        }
-    };
-    Row { name, parts, sum }
+    let sum = subject.mean().map(|mean| with_unit(mean, &subject.unit));
+    Row {
+        name: match subject.readings.len() {
+            1 => subject.sensor.clone(),
+            count => format!("{} (mean of {count})", subject.sensor),
+        },
+        parts: values(subject.groups()),
+        sum: sum.unwrap_or_default(),
+    }
+}
+
+fn values(groups: &[(String, Estimate)]) -> Vec<f64> {
+    groups.iter().map(|(_, part)| part.value).collect()
 }
 
 #[cfg(test)]

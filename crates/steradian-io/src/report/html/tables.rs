@@ -158,37 +158,34 @@ fn half_widths(run: &Run<'_>) -> String {
 
 /// What each light group gives, in the mean over the points.
 pub(super) fn groups(section: &mut Markup, run: &Run<'_>, subject: &Subject) {
-    let names = run.measurements.group_names();
-    if names.len() < 2 {
+    let (groups, Some(whole)) = (subject.groups(), subject.mean()) else {
+        return;
+    };
+    if groups.len() < 2 {
         return;
     }
     section.leaf("h3", "Light groups");
-    let count = subject.readings.len();
-    let caption = match count {
-        1 => "What each light group gives".to_owned(),
-        _ => format!("What each light group gives, mean of {count} points"),
+    let of = match subject.readings.len() {
+        1 => String::new(),
+        count => format!(", mean of {count} points"),
     };
+    let caption = format!("What each light group gives{of}; ± {}", half_widths(run));
     let value = format!("value ({})", subject.unit);
     let headings = [words(&["group"]), vec![value, "share".to_owned()]].concat();
-    let mean = |part: &dyn Fn(&Reading) -> f64| {
-        subject.readings.iter().map(part).sum::<f64>() / count as f64
+    let share = |part: &Estimate| match whole.value == 0.0 {
+        true => NONE.to_owned(),
+        false => format!("{} %", significant(100.0 * part.value / whole.value, 3)),
     };
-    let whole = mean(&|reading| reading.estimate.value);
     table(section, &caption, &headings, 1, |body| {
-        for (number, name) in names.iter().enumerate() {
-            let part = mean(&|reading| reading.groups[number].1.value);
-            let share = match whole == 0.0 {
-                true => NONE.to_owned(),
-                false => format!("{} %", significant(100.0 * part / whole, 3)),
-            };
+        for (name, part) in groups {
             row(
                 body,
                 |cell| cell.words(name),
-                &[significant(part, 4), share],
+                &[estimate(part), share(part)],
                 1,
             );
         }
-        let cells = [significant(whole, 4), "100 %".to_owned()];
+        let cells = [estimate(whole), "100 %".to_owned()];
         row(body, |cell| cell.words("sum"), &cells, 1);
     });
 }

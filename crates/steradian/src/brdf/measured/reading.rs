@@ -2,9 +2,7 @@
 
 use super::to_spectrum;
 use crate::quantity::Spectrum;
-
-/// Luminance weights of linear Rec.709 (ITU-R BT.709-6, item 3.2).
-const REC709: [f64; 3] = [0.2126, 0.7152, 0.0722];
+use crate::spectrum::REC709_LUMINANCE;
 
 /// What the lanes of a run are.
 #[derive(Copy, Clone, Debug, Default, PartialEq)]
@@ -33,7 +31,7 @@ impl Reading {
 pub(super) fn luminance(colour: [f64; 3]) -> f64 {
     colour
         .iter()
-        .zip(REC709)
+        .zip(REC709_LUMINANCE)
         .map(|(x, weight)| x * weight)
         .sum()
 }

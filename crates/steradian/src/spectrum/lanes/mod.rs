@@ -36,8 +36,8 @@ const WIDEST: [f64; 2] = [280.0, 4000.0];
 /// Name of the channel with response 1.
 pub const RADIANT: &str = "radiant";
 
-/// Luminance weights of linear Rec.709.
-const REC709: [f64; 3] = [0.2126, 0.7152, 0.0722];
+/// Luminance of Rec.709's linear primaries (ITU-R BT.709-6, item 3.2).
+pub const REC709_LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Lanes of one reflectance or light: `lanes` times the curve at the path's wavelengths.
 #[derive(Clone, Debug, PartialEq)]
@@ -210,7 +210,7 @@ impl Lanes {
     /// Weights of the channels in a radiant value.
     pub fn radiant_weights(&self) -> Vec<f64> {
         match self.mode {
-            Mode::Rgb => REC709.to_vec(),
+            Mode::Rgb => REC709_LUMINANCE.to_vec(),
             Mode::Bands => vec![1.0; self.count()],
             Mode::Spectral { .. } => self.only(self.channel(RADIANT)),
         }
@@ -227,7 +227,7 @@ impl Lanes {
     /// `spectral`, which has no K.
     pub fn light_weights(&self) -> Option<Vec<f64>> {
         match self.mode {
-            Mode::Rgb => return Some(REC709.to_vec()),
+            Mode::Rgb => return Some(REC709_LUMINANCE.to_vec()),
             Mode::Spectral { .. } => return None,
             Mode::Bands => {}
         }
