@@ -1,7 +1,7 @@
 //! Rays per second on meshes and rays that a peer program has written; `benchmarks/embree/README.md` says how to use it.
 //!
-//! Arguments: a directory, the number of passes, then names of meshes (all in the directory if none is given). Figures are
-//! of the fastest pass, in batches of 1024 rays, one thread.
+//! Arguments: a directory, then names of meshes (all in the directory if none is given); `--build-only` leaves the rays out.
+//! Figures are means over enough passes to fill half a second of processor time, in batches of 1024 rays, one thread.
 
 #![allow(
     clippy::print_stdout,
@@ -11,20 +11,21 @@
 
 use std::error::Error;
 use std::path::Path;
-use std::time::Instant;
-use steradian_kernel::{Accelerator, Geometry, HitBatch, InstructionSet, MISS, RayBatch};
+use steradian_kernel::{
+    Accelerator, BuildError, Geometry, HitBatch, InstructionSet, MISS, RayBatch,
+};
 
 const BATCH: usize = 1024;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let arguments: Vec<String> = std::env::args()
+    let (flags, arguments): (Vec<String>, Vec<String>) = std::env::args()
         .skip(1)
-        .filter(|argument| !argument.starts_with("--"))
-        .collect();
-    let [directory, passes, meshes @ ..] = arguments.as_slice() else {
-        eprintln!("arguments: DIRECTORY PASSES [MESH ...]");
+        .partition(|argument| argument.starts_with("--"));
+    let [directory, meshes @ ..] = arguments.as_slice() else {
+        eprintln!("arguments: DIRECTORY [MESH ...] [--build-only]");
         return Ok(());
     };
+    let build_only = flags.iter().any(|flag| flag == "--build-only");
     let all = [
         "sphere10k",
         "sphere100k",
@@ -39,12 +40,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         meshes.to_vec()
     };
     for mesh in meshes {
-        compare(Path::new(directory), &mesh, passes.parse()?)?;
+        compare(Path::new(directory), &mesh, build_only)?;
     }
     Ok(())
 }
 
-fn compare(directory: &Path, mesh: &str, passes: usize) -> Result<(), Box<dyn Error>> {
+fn compare(directory: &Path, mesh: &str, build_only: bool) -> Result<(), Box<dyn Error>> {
     let read = |suffix: &str| std::fs::read(directory.join(format!("{mesh}.{suffix}")));
     let geometry = Geometry {
         positions: words(&read("verts.f32")?)
@@ -53,30 +54,54 @@ fn compare(directory: &Path, mesh: &str, passes: usize) -> Result<(), Box<dyn Er
         triangles: words(&read("tris.u32")?).collect(),
         quadrics: vec![],
     };
-    let start = Instant::now();
-    let accelerator = Accelerator::build(&geometry)?;
-    println!("{mesh} build_s: {:.4}", start.elapsed().as_secs_f64());
+    let (accelerator, seconds) = build(&geometry)?;
+    println!("{mesh} build_s: {seconds:.5}");
     let bytes = accelerator.memory_bytes() as f64 / geometry.triangles.len() as f64;
     println!("{mesh} bytes_per_triangle: {bytes:.1}");
+    if build_only {
+        return Ok(());
+    }
     let set = instruction_set();
-    for (kind, is_closest) in [
-        ("primary", true),
-        ("diffuse", true),
-        ("diffuse", false),
-        ("shadow", false),
-    ] {
+    for (kind, is_closest) in [("primary", true), ("diffuse", true), ("shadow", false)] {
         let batches = batches(&read(&format!("{kind}.rays"))?);
         let name = if is_closest { "closest" } else { "anyhit" };
-        let (seconds, hits) = (0..passes)
-            .map(|_| pass(&accelerator, &batches, is_closest, set))
-            .fold((f64::INFINITY, 0), |best, pass| {
-                (best.0.min(pass.0), pass.1)
-            });
+        let Repeated {
+            result: hits,
+            seconds,
+        } = repeat(|| pass(&accelerator, &batches, is_closest, set));
         let rays: usize = batches.iter().map(RayBatch::len).sum();
         let (speed, share) = (rays as f64 / seconds * 1e-6, hits as f64 / rays as f64);
         println!("{mesh} {kind} {name}_single Mrays_per_s: {speed:.3}  hit_fraction: {share:.6}");
     }
     Ok(())
+}
+
+/// Also the processor seconds of a build.
+fn build(geometry: &Geometry) -> Result<(Accelerator, f64), BuildError> {
+    let Repeated { result, seconds } = repeat(|| Accelerator::build(geometry));
+    Ok((result?, seconds))
+}
+
+struct Repeated<T> {
+    result: T,
+    /// Processor seconds of one repetition, on average.
+    seconds: f64,
+}
+
+/// Repeats a task until half a second is full, for the clock advances by milliseconds.
+fn repeat<T>(task: impl Fn() -> T) -> Repeated<T> {
+    let (start, mut times) = (processor_seconds(), 0.0);
+    loop {
+        let result = task();
+        let seconds = processor_seconds() - start;
+        times += 1.0;
+        if seconds > 0.5 {
+            return Repeated {
+                result,
+                seconds: seconds / times,
+            };
+        }
+    }
 }
 
 /// The best one, or the one that the variable `INSTRUCTION_SET` names.
@@ -88,16 +113,15 @@ fn instruction_set() -> InstructionSet {
     }
 }
 
-/// Seconds and hits of one pass.
+/// The number of hits of one pass.
 fn pass(
     accelerator: &Accelerator,
     batches: &[RayBatch],
     is_closest: bool,
     set: InstructionSet,
-) -> (f64, usize) {
+) -> usize {
     let (mut hits, mut occluded) = (HitBatch::default(), Vec::new());
     let mut count = 0;
-    let start = processor_seconds();
     for batch in batches {
         if is_closest {
             accelerator.closest(batch, &mut hits, set);
@@ -107,7 +131,7 @@ fn pass(
             count += occluded.iter().filter(|&&occluded| occluded).count();
         }
     }
-    (processor_seconds() - start, count)
+    count
 }
 
 /// What this thread has computed so far, as Linux counts it; elsewhere the time of day.

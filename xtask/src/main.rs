@@ -5,6 +5,7 @@
     reason = "a command that talks to a developer"
 )]
 
+mod bench;
 mod json;
 mod layers;
 mod licences;
@@ -19,7 +20,8 @@ const USAGE: &str = "\
 Usage: cargo xtask TASK
 
   test [--statistics]   everything a change must pass; --statistics runs the statistical tests at full count instead
-  bench [FILTER]        the benchmarks
+  bench [PART …]        the benchmark suite beside other programs; bench --help names its parts
+  bench stages [FILTER] the benchmarks of single functions, which need no other program
   docs                  the documentation of the public interface; runs the commands of the examples
   schema [--check]      write (or compare) the files generated from the scene file's table of keys
   layers                fail when a module uses one above it
@@ -42,7 +44,8 @@ fn run(words: &[&str]) -> Result<(), String> {
     match words {
         ["test"] => suite::test(&root),
         ["test", "--statistics"] => suite::statistics(&root),
-        ["bench", rest @ ..] => suite::bench(&root, rest),
+        ["bench", "stages", rest @ ..] => suite::stages(&root, rest),
+        ["bench", rest @ ..] => bench::run(&root, rest),
         ["docs"] => suite::docs(&root),
         ["schema"] => schema::write(&root),
         ["schema", "--check"] => schema::check(&root),

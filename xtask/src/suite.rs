@@ -53,8 +53,8 @@ pub fn statistics(root: &Path) -> Result<(), String> {
     ))
 }
 
-/// The benchmarks, all or those whose name holds a filter.
-pub fn bench(root: &Path, filter: &[&str]) -> Result<(), String> {
+/// The benchmarks of single functions, all or those whose name holds a filter.
+pub fn stages(root: &Path, filter: &[&str]) -> Result<(), String> {
     succeed(cargo(root, &["bench", "--package", "steradian-benches", "--"]).args(filter))
 }
 
