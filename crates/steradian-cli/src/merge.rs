@@ -20,7 +20,7 @@ pub struct Arguments {
     /// The parts' files
     #[arg(required = true, value_name = "SHARD")]
     parts: Vec<PathBuf>,
-    /// Where the whole goes: .json, .csv or a table for readings; .exr, .hdr, .png or .pfm for a picture
+    /// Where the whole goes: .json, .csv, .parquet or a table for readings; .exr, .hdr, .png or .pfm for a picture
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// How to write readings [default: by the ending of the output's name, else table]
@@ -38,6 +38,7 @@ Examples:
 
 /// Reads, merges and writes.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let output = &arguments.output;
     let parts = Parts::read(&arguments.parts)?;
     let scene_hash = parts.scene_hash();
     match parts.kind()? {
@@ -48,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
                 scene_hash,
                 version: VERSION.to_owned(),
             }
-            .write(arguments.format, Some(&arguments.output))
+            .write(Format::of(arguments.format, Some(output))?, Some(output))
         }
         Kind::Picture => {
             let picture = Picture::merge(parts.contents()?)?;
@@ -56,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
                 picture,
                 scene_hash,
             }
-            .write(arguments.look.look(), &arguments.output)
+            .write(arguments.look.look(), output)
         }
     }
 }

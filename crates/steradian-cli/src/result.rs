@@ -1,5 +1,6 @@
 //! Readings on their way out.
 
+use std::io::{IsTerminal, stdout};
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -21,18 +22,28 @@ pub enum Format {
     Json,
     /// One line a reading, fixed columns
     Csv,
+    /// For data frames and databases: the columns of CSV, and one for each channel and light group
+    Parquet,
 }
 
 impl Format {
-    /// The format that the ending of a file's name tells, else a table.
-    pub fn of(path: Option<&Path>) -> Self {
-        match path
+    /// What was asked for, or what the ending of the name says, or a table. What cannot be written is told here, before light is traced.
+    pub fn of(asked: Option<Self>, file: Option<&Path>) -> Result<Self, Failure> {
+        let ending = file
             .and_then(Path::extension)
-            .and_then(|ending| ending.to_str())
-        {
+            .and_then(|ending| ending.to_str());
+        let format = asked.unwrap_or(match ending {
             Some("json") => Self::Json,
             Some("csv") => Self::Csv,
+            Some("parquet") => Self::Parquet,
             _ => Self::Table,
+        });
+        match format {
+            Self::Parquet if cfg!(not(feature = "parquet")) => Err(without_parquet()),
+            Self::Parquet if file.is_none() && stdout().is_terminal() => Err(Failure::message(
+                "Parquet is not for a terminal; name a file: -o FILE.parquet",
+            )),
+            _ => Ok(format),
         }
     }
 }
@@ -58,16 +69,41 @@ impl Readings {
     }
 
     /// Writes a report; not as asked when a tolerance was missed or light was left out.
-    pub fn write(&self, format: Option<Format>, file: Option<&Path>) -> Result<Outcome, Failure> {
+    pub fn write(&self, format: Format, file: Option<&Path>) -> Result<Outcome, Failure> {
         let run = self.as_run();
-        let text = match format.unwrap_or_else(|| Format::of(file)) {
-            Format::Table => table::encode(&run),
-            Format::Json => json::encode(&run)?,
-            Format::Csv => csv::encode(&run)?,
-        };
-        output::write(text.as_bytes(), file)?;
+        match format {
+            Format::Table => output::write(table::encode(&run).as_bytes(), file)?,
+            Format::Json => output::write(json::encode(&run)?.as_bytes(), file)?,
+            Format::Csv => output::write(csv::encode(&run)?.as_bytes(), file)?,
+            Format::Parquet => write_parquet(&run, file)?,
+        }
         Ok(Outcome::fine_if(
             self.measurements.complete() && self.measurements.converged(),
         ))
     }
+}
+
+#[cfg(feature = "parquet")]
+fn write_parquet(run: &Run<'_>, file: Option<&Path>) -> Result<(), Failure> {
+    use steradian_io::report::{AtomicFile, parquet};
+    let Some(path) = file else {
+        let mut bytes = Vec::new();
+        parquet::encode(run, &mut bytes)?;
+        return output::write(&bytes, None);
+    };
+    let mut file = AtomicFile::create(path)?;
+    parquet::encode(run, file.sink())?;
+    Ok(file.finish()?)
+}
+
+#[cfg(not(feature = "parquet"))]
+fn write_parquet(_: &Run<'_>, _: Option<&Path>) -> Result<(), Failure> {
+    Err(without_parquet())
+}
+
+fn without_parquet() -> Failure {
+    Failure::message(
+        "this program was built without Parquet; \
+         `cargo install --path crates/steradian-cli --features parquet` builds one that writes it",
+    )
 }

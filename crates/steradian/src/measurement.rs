@@ -133,25 +133,27 @@ impl Measurements {
 
     /// True when every reading met its tolerance.
     pub fn converged(&self) -> bool {
-        self.readings()
-            .iter()
+        self.iter_readings()
             .all(|reading| reading.estimate.converged)
     }
 
     /// The readings of every sensor, in order.
     pub fn readings(&self) -> Vec<Reading> {
+        self.iter_readings().collect()
+    }
+
+    /// The readings of every sensor, in order, each made when it is asked for.
+    pub fn iter_readings(&self) -> impl Iterator<Item = Reading> {
         let points = self
             .sensors
             .iter()
             .flat_map(|sensor| sensor.points.iter().map(move |point| (sensor, point)));
-        points
-            .flat_map(|(sensor, point)| {
-                sensor
-                    .quantities
-                    .iter()
-                    .map(move |q| self.reading(sensor, point, q))
-            })
-            .collect()
+        points.flat_map(move |(sensor, point)| {
+            sensor
+                .quantities
+                .iter()
+                .map(move |q| self.reading(sensor, point, q))
+        })
     }
 
     fn reading(&self, sensor: &SensorRecord, point: &PointRecord, quantity: &Readout) -> Reading {

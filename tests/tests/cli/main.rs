@@ -14,6 +14,7 @@ mod inspect;
 mod instruments;
 mod interruption;
 mod light_groups;
+mod parquet;
 mod pictures;
 mod plots;
 mod results;

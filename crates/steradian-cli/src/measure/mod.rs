@@ -74,6 +74,7 @@ Examples:
   steradian measure scenes/closed-room.toml --rel-error 0.2% --format json -o room.json
   steradian measure scenes/lamps-equal.toml --time 10s --format csv
   steradian measure room.json --format csv                             the same readings again, from the file
+  steradian measure room.json -o room.parquet                          for pandas, polars, DuckDB
   steradian measure room.json --relight 'lamp=50%,window=off'          with lights dimmed, errors included
   steradian measure room.json --solve 'desk: mean = 500 lx' --vary lamp       what dimming gives that
   steradian measure scenes/working-day.toml --start 7h --duration 12h
@@ -145,17 +146,19 @@ struct Stop {
 
 /// Measures or reads a result, and writes it, or the part of it that a shard is.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let (file, lights) = (arguments.output.as_deref(), &arguments.lights);
+    let format = Format::of(arguments.format, file)?;
+    lights.question.refuse(format)?;
     let mut readings = if result_file::is_one(&arguments.scene) {
         result_file::read(arguments)?
     } else {
         traced(arguments)?
     };
-    let (file, lights) = (arguments.output.as_deref(), &arguments.lights);
     if let Some(levels) = &lights.relight {
         relight::apply(levels, &mut readings.measurements)?;
     }
     if lights.question.is_asked() {
-        return lights.question.answer(&readings, arguments.format, file);
+        return lights.question.answer(&readings, format, file);
     }
     match arguments.engine.shard {
         Some(_) => part::write(
@@ -164,7 +167,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             &readings.scene_hash,
             file,
         ),
-        None => readings.write(arguments.format, file),
+        None => readings.write(format, file),
     }
 }
 

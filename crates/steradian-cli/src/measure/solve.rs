@@ -104,11 +104,20 @@ impl Question {
         !self.solve.is_empty()
     }
 
+    /// Tells formats that have no place for an answer.
+    pub fn refuse(&self, format: Format) -> Result<(), Failure> {
+        if self.is_asked() && matches!(format, Format::Csv | Format::Parquet) {
+            let message = "--solve is answered as a table or as JSON, not as CSV or Parquet";
+            return Err(Failure::message(message));
+        }
+        Ok(())
+    }
+
     /// Finds the factors and writes them; not as asked when a target is not met.
     pub fn answer(
         &self,
         readings: &Readings,
-        format: Option<Format>,
+        format: Format,
         file: Option<&Path>,
     ) -> Result<Outcome, Failure> {
         let measurements = &readings.measurements;
@@ -120,13 +129,9 @@ impl Question {
             error => Failure::message(format!("--solve: {error}")),
         })?;
         let run: Run<'_> = readings.as_run();
-        let text = match format.unwrap_or_else(|| Format::of(file)) {
-            Format::Table => solution::table(&run, &solved),
+        let text = match format {
             Format::Json => solution::json(&run, &solved),
-            Format::Csv => {
-                let message = "--solve is answered as a table or as JSON, not as CSV";
-                return Err(Failure::message(message));
-            }
+            _ => solution::table(&run, &solved),
         };
         output::write(text.as_bytes(), file)?;
         let met = solved.targets.iter().all(|achieved| achieved.met);

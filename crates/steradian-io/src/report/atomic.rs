@@ -42,6 +42,11 @@ impl AtomicFile {
             .map_err(|source| failure(&self.path, source))
     }
 
+    /// Where an encoder that writes by itself appends.
+    pub fn sink(&mut self) -> impl Write + Send {
+        &mut self.file
+    }
+
     /// Gives the file its name.
     ///
     /// # Errors

@@ -1,43 +1,18 @@
-//! Readings as CSV (RFC 4180) with fixed columns; what a reading does not have is empty.
-//!
-//! Where an interval was asked for, each reading is followed by a row of what it adds up to: quantity and unit say so
-//! (`radiant exposure`, `J/m2`).
-
-use steradian::estimation::Estimate;
-use steradian::measurement::{Exposure, Reading};
+//! Readings as CSV (RFC 4180) with [fixed columns](super::rows); what a reading does not have is empty.
 
 use super::error::ReportError;
+pub use super::rows::COLUMNS;
+use super::rows::{Row, rows};
 use super::run::Run;
-
-/// The columns, which stay as they are.
-pub const COLUMNS: [&str; 15] = [
-    "sensor",
-    "index",
-    "x",
-    "y",
-    "z",
-    "nx",
-    "ny",
-    "nz",
-    "quantity",
-    "unit",
-    "value",
-    "std_error",
-    "lo",
-    "hi",
-    "converged",
-];
 
 /// The readings, a heading first. Numbers read back to the same bits.
 pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
     let failed = |error: csv::Error| ReportError::Encoding(error.to_string());
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(COLUMNS).map_err(failed)?;
-    for reading in run.measurements.readings() {
-        writer.write_record(record(&reading)).map_err(failed)?;
-        if let Some(exposure) = &reading.exposure {
-            let row = exposure_record(&reading, exposure);
-            writer.write_record(row).map_err(failed)?;
+    for reading in run.measurements.iter_readings() {
+        for row in rows(&reading) {
+            writer.write_record(record(&row)).map_err(failed)?;
         }
     }
     let bytes = writer
@@ -46,61 +21,30 @@ pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
     String::from_utf8(bytes).map_err(|error| ReportError::Encoding(error.to_string()))
 }
 
-fn record(reading: &Reading) -> [String; COLUMNS.len()] {
-    row(reading, &reading.quantity, &reading.unit, &reading.estimate)
-}
-
-fn exposure_record(reading: &Reading, exposure: &Exposure) -> [String; COLUMNS.len()] {
-    row(
-        reading,
-        &exposure.quantity,
-        &exposure.unit,
-        &exposure.estimate,
-    )
-}
-
-fn row(
-    reading: &Reading,
-    quantity: &str,
-    unit: &str,
-    estimate: &Estimate,
-) -> [String; COLUMNS.len()] {
-    let [x, y, z] = vector(reading.position);
-    let [nx, ny, nz] = vector(reading.normal);
-    let end = |side: usize| {
-        estimate
-            .interval
-            .map_or_else(String::new, |interval| number(interval[side]))
-    };
+fn record(row: &Row<'_>) -> [String; COLUMNS.len()] {
+    let [x, y, z, nx, ny, nz] = row.vectors().map(number);
+    let [value, std_error, lo, hi] = row.numbers().map(number);
     [
-        reading.sensor.clone(),
-        reading.index.to_string(),
+        row.reading.sensor.clone(),
+        row.reading.index.to_string(),
         x,
         y,
         z,
         nx,
         ny,
         nz,
-        quantity.to_owned(),
-        unit.to_owned(),
-        number(estimate.value),
-        number(estimate.std_error),
-        end(0),
-        end(1),
-        estimate.converged.to_string(),
+        row.quantity.to_owned(),
+        row.unit.to_owned(),
+        value,
+        std_error,
+        lo,
+        hi,
+        row.estimate.converged.to_string(),
     ]
 }
 
-fn vector(vector: Option<[f64; 3]>) -> [String; 3] {
-    vector.map_or_else(Default::default, |vector| vector.map(number))
-}
-
-fn number(value: f64) -> String {
-    if value.is_finite() {
-        format!("{value:?}")
-    } else {
-        String::new()
-    }
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |value| format!("{value:?}"))
 }
 
 #[cfg(test)]
@@ -129,7 +73,6 @@ mod tests {
 
     #[test]
     fn what_is_unknown_is_empty() {
-        assert_eq!(number(f64::INFINITY), "");
-        assert_eq!(vector(None), ["", "", ""]);
+        assert_eq!((number(None), number(Some(0.5))), ("".into(), "0.5".into()));
     }
 }

@@ -38,8 +38,8 @@ pub enum ReportError {
         /// The names of the picture's lanes.
         lanes: String,
     },
-    /// The encoder of a picture format failed.
-    #[error("cannot encode the picture: {0}")]
+    /// The encoder of a format failed.
+    #[error("cannot encode: {0}")]
     Encoding(String),
     /// A shard file is not what it should be.
     #[error("not a whole shard: {0}")]

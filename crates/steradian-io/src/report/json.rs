@@ -37,31 +37,46 @@ pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
 
 fn report(run: &Run<'_>) -> Value {
     let measurements = run.measurements;
-    let readings = measurements.readings();
-    json!({
-        "schema": SCHEMA,
-        "version": run.version,
-        "scene": measurements.scene_name,
-        "scene_hash": run.scene_hash,
-        "seed": measurements.seed,
-        "confidence": measurements.confidence,
-        "luminous_efficacy": measurements.luminous_efficacy,
-        "max_depth": measurements.max_depth,
-        "complete": measurements.complete(),
-        "converged": measurements.converged(),
-        "unsampled": measurements.unsampled,
-        "warnings": measurements.warnings,
-        "at": measurements.dimming.moment().map(seconds),
-        "over": measurements.dimming.interval().map(|interval| json!({
+    let readings = measurements.iter_readings();
+    let readings: Vec<Value> = readings.map(|found| reading(&found)).collect();
+    let grids: Vec<Value> = measurements.sensors.iter().filter_map(grid).collect();
+    let found: Vec<Value> = measurements.statistics().iter().map(statistics).collect();
+    let mut object = facts(run);
+    object.insert("readings".to_owned(), json!(readings));
+    object.insert("grids".to_owned(), json!(grids));
+    object.insert("statistics".to_owned(), json!(found));
+    Value::Object(object)
+}
+
+/// What belongs to the run as a whole.
+pub fn facts(run: &Run<'_>) -> Map<String, Value> {
+    let measurements = run.measurements;
+    let over = measurements.dimming.interval().map(|interval| {
+        json!({
             "from": seconds(interval.from()),
             "to": seconds(interval.to()),
-        })),
-        "relit": relit(measurements),
-        "note": SAMPLING_ERROR_ONLY,
-        "readings": readings.iter().map(reading).collect::<Vec<_>>(),
-        "grids": measurements.sensors.iter().filter_map(grid).collect::<Vec<_>>(),
-        "statistics": measurements.statistics().iter().map(statistics).collect::<Vec<_>>(),
-    })
+        })
+    });
+    let facts = [
+        ("schema", json!(SCHEMA)),
+        ("version", json!(run.version)),
+        ("scene", json!(measurements.scene_name)),
+        ("scene_hash", json!(run.scene_hash)),
+        ("seed", json!(measurements.seed)),
+        ("confidence", json!(measurements.confidence)),
+        ("luminous_efficacy", json!(measurements.luminous_efficacy)),
+        ("max_depth", json!(measurements.max_depth)),
+        ("complete", json!(measurements.complete())),
+        ("converged", json!(measurements.converged())),
+        ("unsampled", json!(measurements.unsampled)),
+        ("warnings", json!(measurements.warnings)),
+        ("at", json!(measurements.dimming.moment().map(seconds))),
+        ("over", json!(over)),
+        ("relit", relit(measurements)),
+        ("note", json!(SAMPLING_ERROR_ONLY)),
+    ];
+    let facts = facts.into_iter();
+    facts.map(|(key, fact)| (key.to_owned(), fact)).collect()
 }
 
 fn reading(reading: &Reading) -> Value {

@@ -1,4 +1,4 @@
-//! Results out: tables, JSON and CSV of readings; EXR, PFM, HDR and PNG pictures; SVG diagrams; shards. JSON in again.
+//! Results out: tables, JSON, CSV and Parquet of readings; EXR, PFM, HDR and PNG pictures; SVG diagrams; shards. JSON in again.
 //!
 //! Every encoder turns a result into bytes or text and touches no file; [`write_atomically`] puts bytes under a name in
 //! one step, so that a run that stops half-way leaves no half-written output. The same result gives the same bytes.
@@ -18,11 +18,14 @@ pub mod image;
 pub mod json;
 pub mod npz;
 pub mod numbers;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 pub mod pfm;
 pub mod picture_file;
 pub mod plot;
 pub mod png;
 mod raster;
+pub mod rows;
 pub mod run;
 pub mod shard;
 pub mod solution;

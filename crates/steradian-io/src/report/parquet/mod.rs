@@ -1,0 +1,145 @@
+//! Readings as Apache Parquet, for data frames and databases.
+//!
+//! A row is what it is in CSV: the [fixed columns](super::rows), doubles of the same bits, and null for what a reading does not have; no
+//! NaN. After them stand the parts of the value, `channel:NAME` and `channel:NAME:std_error`, then `group:NAME` and `group:NAME:std_error`
+//! for each light group, in the row's unit. They are null in rows of what a reading adds up to, and channels where they have no part.
+//!
+//! The metadata of the file hold what [JSON](super::json) says about the run under the same keys: texts as they are, else as JSON.
+//! Rows are written in groups of bounded size, so that memory does not grow with their number. Pages are compressed by Snappy.
+//!
+//! Source: Apache Parquet format 2.9; of its types, only those of version 1.0.
+
+mod row_group;
+
+use std::collections::HashSet;
+use std::io::Write;
+use std::sync::Arc;
+
+use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::{Type, TypePtr};
+use serde_json::Value;
+use steradian::measurement::Measurements;
+
+use self::row_group::RowGroup;
+use super::error::ReportError;
+use super::json;
+use super::rows::{COLUMNS, rows};
+use super::run::Run;
+
+/// As many cells are kept in memory, eight bytes and a few more each.
+const CELLS_IN_MEMORY: usize = 1 << 21;
+
+/// Writes the readings.
+///
+/// # Errors
+/// If `sink` cannot be written to, or the names of channels and light groups make two columns of one name.
+pub fn encode(run: &Run<'_>, sink: impl Write + Send) -> Result<(), ReportError> {
+    encode_in_groups(run, CELLS_IN_MEMORY, sink)
+}
+
+fn encode_in_groups(
+    run: &Run<'_>,
+    cells: usize,
+    sink: impl Write + Send,
+) -> Result<(), ReportError> {
+    let parts = Parts::of(run.measurements);
+    let schema = schema(&parts)?;
+    let rows_in_group = (cells / schema.get_fields().len()).max(1);
+    let mut writer = SerializedFileWriter::new(sink, schema, Arc::new(properties(run)))?;
+    let mut group = RowGroup::new(&parts);
+    for reading in run.measurements.iter_readings() {
+        rows(&reading).for_each(|row| group.push(&row));
+        if group.len() >= rows_in_group {
+            group.write(&mut writer)?;
+            group = RowGroup::new(&parts);
+        }
+    }
+    group.write(&mut writer)?;
+    writer.close()?;
+    Ok(())
+}
+
+/// Names of what values are made of.
+struct Parts {
+    channels: Vec<String>,
+    groups: Vec<String>,
+}
+
+impl Parts {
+    fn of(measurements: &Measurements) -> Self {
+        let lanes = measurements.lanes.iter();
+        Self {
+            channels: lanes.map(|lane| lane.name.clone()).collect(),
+            groups: measurements.group_names().into_iter().cloned().collect(),
+        }
+    }
+
+    /// The columns that hold them.
+    fn columns(&self) -> impl Iterator<Item = String> {
+        let channels = self.channels.iter().map(|name| format!("channel:{name}"));
+        let groups = self.groups.iter().map(|name| format!("group:{name}"));
+        let columns = channels.chain(groups);
+        columns.flat_map(|name| [name.clone(), format!("{name}:std_error")])
+    }
+}
+
+fn schema(parts: &Parts) -> Result<TypePtr, ReportError> {
+    let fixed = COLUMNS.into_iter().map(str::to_owned);
+    let names: Vec<String> = fixed.chain(parts.columns()).collect();
+    let mut known = HashSet::new();
+    if let Some(name) = names.iter().find(|name| !known.insert(*name)) {
+        let message = format!("two columns would have the name `{name}`; rename the light group");
+        return Err(ReportError::Encoding(message));
+    }
+    let fields = names.iter().map(|name| field(name).map(Arc::new));
+    let fields = fields.collect::<Result<_, _>>()?;
+    let schema = Type::group_type_builder("readings").with_fields(fields);
+    Ok(Arc::new(schema.build()?))
+}
+
+fn field(name: &str) -> Result<Type, ParquetError> {
+    let (physical, repetition) = match name {
+        "sensor" | "quantity" | "unit" => (Physical::BYTE_ARRAY, Repetition::REQUIRED),
+        "index" => (Physical::INT64, Repetition::REQUIRED),
+        "converged" => (Physical::BOOLEAN, Repetition::REQUIRED),
+        _ => (Physical::DOUBLE, Repetition::OPTIONAL),
+    };
+    let field = Type::primitive_type_builder(name, physical).with_repetition(repetition);
+    match physical {
+        Physical::BYTE_ARRAY => field
+            .with_logical_type(Some(LogicalType::String))
+            .with_converted_type(ConvertedType::UTF8)
+            .build(),
+        _ => field.build(),
+    }
+}
+
+fn properties(run: &Run<'_>) -> WriterProperties {
+    let facts = json::facts(run).into_iter();
+    let metadata = facts.filter_map(|(key, fact)| match fact {
+        Value::Null => None,
+        Value::String(text) => Some(KeyValue::new(key, text)),
+        fact => Some(KeyValue::new(key, fact.to_string())),
+    });
+    WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by(format!("steradian version {}", run.version))
+        .set_key_value_metadata(Some(metadata.collect()))
+        .build()
+}
+
+impl From<ParquetError> for ReportError {
+    fn from(error: ParquetError) -> Self {
+        match error {
+            ParquetError::External(source) => Self::Encoding(source.to_string()),
+            error => Self::Encoding(error.to_string()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
