@@ -19,14 +19,14 @@ use steradian_io::import::{
     MeshFile, bsdf, gltf, image, luminance_map as maps, obj, photometry, ply, points, series,
     spectrum, stl,
 };
-use steradian_io::report::Shard;
+use steradian_io::report::{Shard, csv, html, json, stored, table};
 use steradian_io::scene_file::read_scene_str;
 
 /// A target and what it does with bytes.
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target.
-pub const TARGETS: [Target; 20] = [
+pub const TARGETS: [Target; 21] = [
     ("scene_file", scene_file),
     ("obj", obj),
     ("mtl", mtl),
@@ -47,6 +47,7 @@ pub const TARGETS: [Target; 20] = [
     ("series", series),
     ("boundaries", boundaries),
     ("shard", shard),
+    ("stored", stored),
 ];
 
 /// A picture of one texel.
@@ -290,6 +291,22 @@ fn read_shard(bytes: &[u8]) {
         let _ = shard.content::<Measurements>();
         let _ = shard.content::<Picture>();
     }
+}
+
+/// Results of `measure`: what was read is written in every format, and reads back as it was.
+pub fn stored(bytes: &[u8]) {
+    let files = MemoryFiles::default().with("a.json", bytes);
+    let read = match stored::read(Path::new("a.json"), &files) {
+        Ok(read) => read,
+        Err(error) => return assert!(error.to_string().starts_with("a.json")),
+    };
+    let run = read.as_run();
+    assert!(!table::encode(&run).is_empty() && csv::encode(&run).is_ok());
+    let _ = html::encode(&run);
+    let again = json::encode(&run).unwrap_or_default();
+    let files = MemoryFiles::default().with("a.json", &again[..]);
+    let again = stored::read(Path::new("a.json"), &files);
+    assert!(again.is_ok_and(|again| again == read));
 }
 
 fn assert_is_sound(file: &MeshFile) {
