@@ -63,7 +63,8 @@ Examples:
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Stopping")]
 struct Stop {
-    /// Take this many samples a pixel, all passes together [default: 64]
+    /// Take this many samples a pixel, all passes together: camera rays, each with four paths from what it meets first (by wavelength:
+    /// one) [default: 64]
     #[arg(long, value_name = "NUMBER", value_parser = values::count, conflicts_with_all = ["rel_error", "time"])]
     samples: Option<u64>,
     /// Stop each tile when the 95 % intervals of its pixels are on average within this part of the value

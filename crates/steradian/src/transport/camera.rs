@@ -7,6 +7,7 @@
 mod optics;
 
 use self::optics::Optics;
+use super::branching::BRANCHES;
 use super::channels;
 use super::columns::{BATCH, Flight, Workspace};
 use super::measure::WAVELENGTH_BLOCK;
@@ -78,6 +79,11 @@ impl<'a> CameraSampler<'a> {
         std::mem::swap(&mut flights.light_v, &mut uniforms[3]);
     }
 
+    /// Paths from what a camera ray meets first: one of a spectral run, where branches would share their wavelengths.
+    fn branches(&self) -> u32 {
+        if self.density.is_some() { 1 } else { BRANCHES }
+    }
+
     fn tables(&self) -> &Tables<'_> {
         self.tracer.tables
     }
@@ -92,11 +98,15 @@ impl PixelSampler for CameraSampler<'_> {
 
     fn sample(&self, batch: &PixelBatch<'_>, paths: &mut Workspace, out: &mut [[f32; 4]]) {
         paths.watch.start();
-        paths.watch.times.paths += batch.len() as u64;
+        paths.watch.times.paths += batch.len() as u64 * u64::from(self.branches());
         self.tracer.begin(paths, batch.len());
         self.launch(batch, paths);
         paths.watch.lap(Stage::Camera);
-        self.tracer.follow(paths, 0, self.tables().for_surfaces());
+        if self.branches() == 1 {
+            self.tracer.follow(paths, 0, self.tables().for_surfaces());
+        } else {
+            self.tracer.follow_branches(paths);
+        }
         for (slot, lanes) in out.iter_mut().enumerate() {
             if self.density.is_some() {
                 *lanes = self.channels(paths, slot);

@@ -2,6 +2,7 @@
 
 use steradian_kernel::{HitBatch, RayBatch};
 
+use super::branching::Stem;
 use super::interaction::Hit;
 use super::light_tree::Receiving;
 use super::media::AIR;
@@ -34,6 +35,12 @@ impl Identity {
         self.slot.push(slot);
         self.key.push(key);
         self.index.push(index);
+    }
+
+    pub fn copy_from(&mut self, other: &Self) {
+        self.slot.clone_from(&other.slot);
+        self.key.clone_from(&other.key);
+        self.index.clone_from(&other.index);
     }
 
     pub fn len(&self) -> usize {
@@ -164,20 +171,53 @@ pub(super) struct Vertices {
 
 impl Vertices {
     pub fn clear(&mut self) {
-        let columns = [
+        self.columns_mut().into_iter().for_each(Vec::clear);
+        self.identity.clear();
+    }
+
+    pub fn copy_from(&mut self, other: &Self) {
+        for (to, from) in self.columns_mut().into_iter().zip(other.columns()) {
+            to.clone_from(from);
+        }
+        self.identity.copy_from(&other.identity);
+    }
+
+    fn columns(&self) -> [&Vec<f32>; 9 + MAX_LANES] {
+        let [a, b, c, d] = &self.response;
+        [
+            &self.x,
+            &self.y,
+            &self.z,
+            &self.normal_x,
+            &self.normal_y,
+            &self.normal_z,
+            &self.clearance,
+            &self.light_u,
+            &self.light_v,
+            a,
+            b,
+            c,
+            d,
+        ]
+    }
+
+    fn columns_mut(&mut self) -> [&mut Vec<f32>; 9 + MAX_LANES] {
+        let [a, b, c, d] = &mut self.response;
+        [
             &mut self.x,
             &mut self.y,
             &mut self.z,
             &mut self.normal_x,
             &mut self.normal_y,
             &mut self.normal_z,
-        ];
-        columns.into_iter().for_each(Vec::clear);
-        for column in [&mut self.clearance, &mut self.light_u, &mut self.light_v] {
-            column.clear();
-        }
-        self.response.iter_mut().for_each(Vec::clear);
-        self.identity.clear();
+            &mut self.clearance,
+            &mut self.light_u,
+            &mut self.light_v,
+            a,
+            b,
+            c,
+            d,
+        ]
     }
 
     pub fn len(&self) -> usize {
@@ -341,6 +381,8 @@ pub struct Workspace {
     pub(super) lit: Vertices,
     pub(super) shadows: Shadows,
     pub(super) uniforms: [Vec<f32>; 4],
+    /// What the branches of camera rays begin with.
+    pub(super) stem: Stem,
     /// Gathered light: column × slot.
     pub(super) gathered: Vec<f32>,
     pub(super) watch: StopWatch,

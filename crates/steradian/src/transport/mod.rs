@@ -5,6 +5,7 @@
 
 mod aim;
 mod appearance;
+mod branching;
 mod camera;
 mod channels;
 mod choice;

@@ -89,26 +89,32 @@ impl Tracer<'_> {
             if workspace.flights.len() == 0 {
                 return;
             }
-            workspace.watch.times.rays += workspace.flights.len() as u64;
-            self.tables.scene.surfaces().closest(
-                &workspace.flights.rays,
-                &mut workspace.hits,
-                self.set,
-            );
-            workspace.watch.lap(Stage::Closest);
-            workspace.vertices.clear();
-            workspace.mirrors.clear();
-            workspace.encounters.clear();
-            workspace.viewer.iter_mut().for_each(Vec::clear);
-            self.arrive(workspace, candidates);
-            workspace.watch.lap(Stage::Arrive);
-            self.pass_on(workspace, candidates);
+            self.advance(workspace, candidates);
             if segment == self.max_depth {
                 return;
             }
             self.reflect(workspace, segment);
             candidates = self.tables.for_surfaces();
         }
+    }
+
+    /// Takes every flight to the surface that it meets.
+    pub fn advance(&self, workspace: &mut Workspace, candidates: Candidates) {
+        workspace.vertices.clear();
+        workspace.mirrors.clear();
+        workspace.encounters.clear();
+        workspace.viewer.iter_mut().for_each(Vec::clear);
+        self.arrive_at_hits(workspace, candidates);
+        self.pass_on(workspace, candidates);
+    }
+
+    fn arrive_at_hits(&self, workspace: &mut Workspace, candidates: Candidates) {
+        workspace.watch.times.rays += workspace.flights.len() as u64;
+        let surfaces = self.tables.scene.surfaces();
+        surfaces.closest(&workspace.flights.rays, &mut workspace.hits, self.set);
+        workspace.watch.lap(Stage::Closest);
+        self.arrive(workspace, candidates);
+        workspace.watch.lap(Stage::Arrive);
     }
 
     /// Samples the lights at the vertices and sends the paths on; `segment` is the number of segments so far.
@@ -232,12 +238,7 @@ impl Tracer<'_> {
         while workspace.passing.len() > 0 {
             std::mem::swap(&mut workspace.flights, &mut workspace.passing);
             workspace.passing.clear();
-            workspace.watch.times.rays += workspace.flights.len() as u64;
-            let surfaces = self.tables.scene.surfaces();
-            surfaces.closest(&workspace.flights.rays, &mut workspace.hits, self.set);
-            workspace.watch.lap(Stage::Closest);
-            self.arrive(workspace, candidates);
-            workspace.watch.lap(Stage::Arrive);
+            self.arrive_at_hits(workspace, candidates);
         }
     }
 
