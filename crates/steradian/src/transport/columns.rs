@@ -246,6 +246,29 @@ impl Vertices {
         self.light_v.push(light[1]);
     }
 
+    /// Room for more vertices.
+    pub fn extend(&mut self, more: usize) -> Room<'_> {
+        let (from, count) = (self.len(), self.len() + more);
+        for column in self.columns_mut() {
+            column.resize(count, 0.0);
+        }
+        let Identity { slot, key, index } = &mut self.identity;
+        slot.resize(count, 0);
+        key.resize(count, 0);
+        index.resize(count, 0);
+        Room {
+            point: [&mut self.x, &mut self.y, &mut self.z].map(|column| &mut column[from..]),
+            normal: [&mut self.normal_x, &mut self.normal_y, &mut self.normal_z]
+                .map(|column| &mut column[from..]),
+            clearance: &mut self.clearance[from..],
+            response: self.response.each_mut().map(|column| &mut column[from..]),
+            light: [&mut self.light_u, &mut self.light_v].map(|column| &mut column[from..]),
+            slot: &mut slot[from..],
+            key: &mut key[from..],
+            index: &mut index[from..],
+        }
+    }
+
     pub fn place(&self, i: usize) -> Place {
         Place {
             point: [self.x[i], self.y[i], self.z[i]],
@@ -253,6 +276,18 @@ impl Vertices {
             clearance: self.clearance[i],
         }
     }
+}
+
+/// Columns of new vertices, to be filled.
+pub(super) struct Room<'a> {
+    pub point: [&'a mut [f32]; 3],
+    pub normal: [&'a mut [f32]; 3],
+    pub clearance: &'a mut [f32],
+    pub response: [&'a mut [f32]; MAX_LANES],
+    pub light: [&'a mut [f32]; 2],
+    pub slot: &'a mut [u32],
+    pub key: &'a mut [u64],
+    pub index: &'a mut [u32],
 }
 
 /// A point of a surface, in kernel coordinates.
@@ -371,6 +406,8 @@ pub struct Workspace {
     /// By slot.
     pub(super) luggage: Vec<Luggage>,
     pub(super) hits: HitBatch,
+    /// Rows of the flights that met plain triangles.
+    pub(super) plain: Vec<u32>,
     pub(super) vertices: Vertices,
     pub(super) mirrors: Vertices,
     /// Direction towards the viewer at each of `mirrors`.

@@ -63,14 +63,8 @@ pub(super) fn hit(tables: &Tables, rays: &RayBatch, hits: &HitBatch, i: usize) -
     };
     let against = -normal.dot(direction);
     let front = against > 0.0;
-    let facing = if front { normal } else { -normal };
-    let clearance = facing.abs().dot(extent).max(size) * GAMMA_8;
     Hit {
-        place: Place {
-            point: point.into(),
-            normal: facing.into(),
-            clearance,
-        },
+        place: place(point, if front { normal } else { -normal }, extent, size),
         side: 2 * part + u32::from(!front),
         primitive: hits.primitive[i],
         weights: [hits.u[i], hits.v[i]],
@@ -78,6 +72,29 @@ pub(super) fn hit(tables: &Tables, rays: &RayBatch, hits: &HitBatch, i: usize) -
         origin: origin.into(),
         distance_squared: (point - origin).length_squared(),
         cos_theta: against.abs(),
+    }
+}
+
+/// A point of a triangle that a ray of this direction meets, and whether it meets the front.
+#[inline(always)]
+pub(super) fn place_on_triangle(
+    record: &TriangleRecord,
+    [u, v]: [f32; 2],
+    direction: [f32; 3],
+) -> (Place, bool) {
+    let (point, normal, extent, size, _) = triangle(record, u, v);
+    let front = -normal.dot(Vec3::from_array(direction)) > 0.0;
+    let facing = if front { normal } else { -normal };
+    (place(point, facing, extent, size), front)
+}
+
+/// A point facing a direction, of this rounding bound and on a primitive of this size.
+#[inline(always)]
+fn place(point: Vec3, facing: Vec3, extent: Vec3, size: f32) -> Place {
+    Place {
+        point: point.into(),
+        normal: facing.into(),
+        clearance: facing.abs().dot(extent).max(size) * GAMMA_8,
     }
 }
 

@@ -22,6 +22,7 @@ mod meters;
 mod next_event;
 mod panel;
 mod path;
+mod plain;
 mod profile;
 pub mod reflection;
 mod run;

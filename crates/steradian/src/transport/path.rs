@@ -30,6 +30,7 @@ use super::interaction::{Hit, hit};
 use super::light_tree::Receiving;
 use super::media::AIR;
 use super::next_event::NextEvent;
+use super::plain::ArrivePlainly;
 use super::profile::Stage;
 use super::scatter;
 use super::scattering::Encounter;
@@ -135,6 +136,8 @@ impl Tracer<'_> {
         if !tables.media.is_empty() {
             attenuate(tables, workspace);
         }
+        let mut plain = std::mem::take(&mut workspace.plain);
+        plain.clear();
         for i in 0..workspace.flights.len() {
             let slot = workspace.flights.identity.slot[i];
             let wavelengths = &workspace.wavelengths[slot as usize];
@@ -142,6 +145,10 @@ impl Tracer<'_> {
                 let (flights, gathered) = (&workspace.flights, &mut workspace.gathered);
                 let place = (candidates, &workspace.receiving[slot as usize]);
                 self.escape((flights, i), wavelengths, place, gathered);
+                continue;
+            }
+            if tables.is_plain(workspace.hits.primitive[i]) {
+                plain.push(i as u32);
                 continue;
             }
             let hit = self.met(workspace, i);
@@ -181,6 +188,14 @@ impl Tracer<'_> {
                 workspace.mirrored(i, &hit, &reflectance);
             }
         }
+        self.set.run(ArrivePlainly {
+            tables,
+            flights: &workspace.flights,
+            hits: &workspace.hits,
+            rows: &plain,
+            vertices: &mut workspace.vertices,
+        });
+        workspace.plain = plain;
     }
 
     /// What flight `i` met, seen from where it left its last vertex.
