@@ -35,6 +35,14 @@ impl Bounds {
             upper: [0, 1, 2].map(|k| self.upper[k].max(other.upper[k])),
         }
     }
+
+    /// Whether another box is flat and lies in one of the faces.
+    pub(crate) fn has_in_a_face(&self, other: &Self) -> bool {
+        (0..3).any(|k| {
+            other.lower[k] == other.upper[k]
+                && (other.lower[k] == self.lower[k] || other.upper[k] == self.upper[k])
+        })
+    }
 }
 
 /// Eight boxes, a column for each plane. 256 bytes, four cache lines.

@@ -3,15 +3,22 @@
 //! A vector holds one number of as many rays as it has lanes. Vertices that triangles share are sheared once. Rays with
 //! different main axes go together: the coordinates are permuted lane by lane. The operations on each ray are those of the
 //! tree's leaves, so the hits are the same bits.
+//!
+//! Walls, floor and ceiling of a room lie in the faces of the box around it, and no shadow ray within that box can meet them: they are left
+//! out where all rays of a vector begin and end within it.
 
 use crate::batch::{Hit, HitBatch, MISS, RayBatch};
 use crate::geometry::COORDINATE_LIMIT;
+use crate::node::Bounds;
 use crate::prepared_ray::DIRECTION_RANGE;
 use crate::simd::{Floats, Mask, Simd};
 use crate::triangle::{Edges, Shear, exact_intersection};
 
 /// Up to this many triangles, trying all is faster than a tree.
 pub(crate) const MOST_TRIANGLES: usize = 64;
+
+/// 2⁻²¹, against the 2⁻²² that the end of a ray may be off in units of the greatest coordinate.
+const END_ROUNDING: f32 = 1.0 / (1 << 21) as f32;
 
 /// Lanes of the widest vector.
 const MOST_LANES: usize = 16;
@@ -22,9 +29,14 @@ type Column = [f32; MOST_LANES];
 /// Triangles by number, over vertices without duplicates.
 #[derive(Clone)]
 pub(crate) struct SmallScene {
+    /// Those of the inner triangles come first.
     vertices: Vec<[f32; 3]>,
+    inner_vertices: usize,
     /// Indices of the corners.
     triangles: Vec<[u16; 3]>,
+    /// The triangles that do not lie in a face of `bounds`.
+    inner: Vec<[u16; 3]>,
+    bounds: Bounds,
     /// What the triangles are called outside, in ascending order, after the name of a miss.
     numbers: Vec<u32>,
 }
@@ -35,12 +47,26 @@ impl SmallScene {
         if numbers.len() > MOST_TRIANGLES {
             return None;
         }
+        let boxes = numbers
+            .iter()
+            .map(|&number| Bounds::of_points(&corners(number)));
+        let bounds = boxes.fold(Bounds::EMPTY, Bounds::union);
         let mut scene = Self {
             vertices: Vec::new(),
+            inner_vertices: 0,
             triangles: Vec::new(),
+            inner: Vec::new(),
+            bounds,
             numbers: vec![MISS],
         };
         scene.numbers.extend(numbers);
+        for corners in numbers.iter().map(|&number| corners(number)) {
+            if !bounds.has_in_a_face(&Bounds::of_points(&corners)) {
+                let triangle = corners.map(|corner| scene.vertex(corner));
+                scene.inner.push(triangle);
+            }
+        }
+        scene.inner_vertices = scene.vertices.len();
         for &number in numbers {
             let triangle = corners(number).map(|corner| scene.vertex(corner));
             scene.triangles.push(triangle);
@@ -65,7 +91,7 @@ impl SmallScene {
         while start < rays.len() {
             let count = S::Wide::LANES.min(rays.len() - start);
             let group = Group::<S::Wide>::load(set, rays, start, count);
-            self.shear(set, &group, &mut sheared);
+            shear(set, &self.vertices, &group, &mut sheared);
             let best = self.closest_of_group(set, &group, &sheared);
             best.write(&self.numbers, hits, start, count);
             start += count;
@@ -78,19 +104,16 @@ impl SmallScene {
         let mut sheared = vec![[S::Wide::splat(set, 0.0); 3]; self.vertices.len()];
         for (index, out) in out.chunks_mut(S::Wide::LANES).enumerate() {
             let group = Group::<S::Wide>::load(set, rays, index * S::Wide::LANES, out.len());
-            self.shear(set, &group, &mut sheared);
-            let met = self.occluded_of_group(set, &group, &sheared);
+            let (vertices, triangles) = if group.stays_within(set, &self.bounds) {
+                (&self.vertices[..self.inner_vertices], &self.inner)
+            } else {
+                (&self.vertices[..], &self.triangles)
+            };
+            shear(set, vertices, &group, &mut sheared);
+            let met = Self::occluded_of_group(set, triangles, &group, &sheared);
             for (lane, out) in out.iter_mut().enumerate() {
                 *out = met >> lane & 1 == 1;
             }
-        }
-    }
-
-    #[inline(always)]
-    fn shear<F: Floats>(&self, set: F::Set, group: &Group<F>, sheared: &mut [[F; 3]]) {
-        for (&[x, y, z], sheared) in self.vertices.iter().zip(sheared) {
-            let vertex = [F::splat(set, x), F::splat(set, y), F::splat(set, z)];
-            *sheared = group.shear.apply(group.axes.permute(vertex));
         }
     }
 
@@ -103,12 +126,12 @@ impl SmallScene {
     ) -> Best<F> {
         let zero = F::splat(set, 0.0);
         let mut best = Best::none(set);
-        let mut postponed = Postponed::default();
+        let mut postponed = zero.less(zero);
         for (index, triangle) in self.triangles.iter().enumerate() {
             let [a, b, c] = corners(triangle, sheared);
             let edges = Edges::new(a, b, c);
             let certain = edges.certainly_inside(set);
-            postponed.set(index, edges.inside(set).bits() & !certain.bits());
+            postponed = postponed | edges.inside(set).without(certain);
             let crossing = edges.intersection([a[2], b[2], c[2]]);
             let on_ray = zero.less(crossing.t) & crossing.t.less_equal(group.t_max);
             let nearer = certain & on_ray & crossing.t.less(best.t);
@@ -118,10 +141,10 @@ impl SmallScene {
             best.w = F::select(nearer, crossing.w, best.w);
             best.determinant = F::select(nearer, crossing.determinant, best.determinant);
         }
-        if postponed.any == 0 {
+        if postponed.bits() == 0 {
             best
         } else {
-            self.closest_exactly(set, group, sheared, best, &postponed)
+            self.closest_exactly(set, group, sheared, best)
         }
     }
 
@@ -133,16 +156,13 @@ impl SmallScene {
         group: &Group<F>,
         sheared: &[[F; 3]],
         best: Best<F>,
-        postponed: &Postponed,
     ) -> Best<F> {
         let (mut t, mut index) = (column(best.t), column(best.index));
         let (mut v, mut w) = (column(best.v), column(best.w));
         let (mut determinant, t_max) = (column(best.determinant), column(group.t_max));
         for (place, triangle) in self.triangles.iter().enumerate() {
             let number = (place + 1) as f32;
-            for (lane, crossing) in
-                exact_crossings(postponed.lanes[place], &corners(triangle, sheared))
-            {
+            for (lane, crossing) in exact_crossings(set, &corners(triangle, sheared)) {
                 let is_nearer =
                     crossing[0] < t[lane] || (crossing[0] == t[lane] && number < index[lane]);
                 if crossing[0] > 0.0 && crossing[0] <= t_max[lane] && is_nearer {
@@ -160,71 +180,47 @@ impl SmallScene {
         }
     }
 
-    /// Lanes whose ray meets something.
+    /// Lanes whose ray meets one of the triangles.
     #[inline(always)]
     fn occluded_of_group<F: Floats>(
-        &self,
         set: F::Set,
+        triangles: &[[u16; 3]],
         group: &Group<F>,
         sheared: &[[F; 3]],
     ) -> u32 {
         let zero = F::splat(set, 0.0);
-        let mut met = 0;
-        let mut postponed = Postponed::default();
-        for (index, triangle) in self.triangles.iter().enumerate() {
+        let mut met = zero.less(zero);
+        let mut postponed = met;
+        for triangle in triangles {
             let [a, b, c] = corners(triangle, sheared);
             let edges = Edges::new(a, b, c);
             let certain = edges.certainly_inside(set);
-            postponed.set(index, edges.inside(set).bits() & !certain.bits());
+            postponed = postponed | edges.inside(set).without(certain);
             let t = edges.intersection([a[2], b[2], c[2]]).t;
-            met |= (certain & zero.less(t) & t.less(group.t_max)).bits();
+            met = met | certain & zero.less(t) & t.less(group.t_max);
         }
-        if postponed.any & !met == 0 {
-            met
+        if postponed.without(met).bits() == 0 {
+            met.bits()
         } else {
-            met | self.occluded_exactly(group, sheared, &postponed)
+            met.bits() | Self::occluded_exactly(set, triangles, group, sheared)
         }
     }
 
     #[cold]
     fn occluded_exactly<F: Floats>(
-        &self,
+        set: F::Set,
+        triangles: &[[u16; 3]],
         group: &Group<F>,
         sheared: &[[F; 3]],
-        postponed: &Postponed,
     ) -> u32 {
         let t_max = column(group.t_max);
         let mut met = 0;
-        for (triangle, &lanes) in self.triangles.iter().zip(&postponed.lanes) {
-            for (lane, [t, ..]) in exact_crossings(lanes, &corners(triangle, sheared)) {
+        for triangle in triangles {
+            for (lane, [t, ..]) in exact_crossings(set, &corners(triangle, sheared)) {
                 met |= u32::from(t > 0.0 && t < t_max[lane]) << lane;
             }
         }
         met
-    }
-}
-
-/// Lanes to be looked at again, for each triangle: a call in the loop would push the hits out of the registers.
-struct Postponed {
-    lanes: [u32; MOST_TRIANGLES],
-    any: u32,
-}
-
-impl Default for Postponed {
-    #[inline(always)]
-    fn default() -> Self {
-        Self {
-            lanes: [0; MOST_TRIANGLES],
-            any: 0,
-        }
-    }
-}
-
-impl Postponed {
-    #[inline(always)]
-    fn set(&mut self, triangle: usize, lanes: u32) {
-        self.lanes[triangle] = lanes;
-        self.any |= lanes;
     }
 }
 
@@ -238,8 +234,19 @@ fn corners<F: Floats>(&[a, b, c]: &[u16; 3], sheared: &[[F; 3]]) -> [[F; 3]; 3] 
     ]
 }
 
+#[inline(always)]
+fn shear<F: Floats>(set: F::Set, vertices: &[[f32; 3]], group: &Group<F>, sheared: &mut [[F; 3]]) {
+    for (&[x, y, z], sheared) in vertices.iter().zip(sheared) {
+        let vertex = [F::splat(set, x), F::splat(set, y), F::splat(set, z)];
+        *sheared = group.shear.apply(group.axes.permute(vertex));
+    }
+}
+
 /// As many rays as a vector has lanes.
 struct Group<F: Floats> {
+    valid: F::Mask,
+    origin: [F; 3],
+    direction: [F; 3],
     axes: Axes<F::Mask>,
     /// Not a number in the lanes of invalid rays, which no test accepts.
     shear: Shear<F>,
@@ -272,10 +279,35 @@ impl<F: Floats> Group<F> {
         let x = F::select(valid, x, F::splat(set, f32::NAN));
         let y = F::select(valid, y, F::splat(set, f32::NAN));
         Self {
+            valid,
+            origin,
+            direction,
             axes,
             shear: Shear::new(set, [x, y, z], axes.permute(direction)),
             t_max,
         }
+    }
+
+    /// Whether all valid rays begin and end within a box: a segment between two points of a convex body meets none of its faces, unless it
+    /// runs along one, which is to see it edge-on.
+    ///
+    /// Ends are off by two roundings of numbers below three times the greatest coordinate along the axis; they count if they clear the faces by that.
+    #[inline(always)]
+    fn stays_within(&self, set: F::Set, bounds: &Bounds) -> bool {
+        let mut inside = self.valid;
+        for axis in 0..3 {
+            let (lower, upper) = (bounds.lower[axis], bounds.upper[axis]);
+            let margin = F::splat(set, lower.abs().max(upper.abs()) * END_ROUNDING);
+            let (lower, upper) = (F::splat(set, lower), F::splat(set, upper));
+            let origin = self.origin[axis];
+            let end = origin + self.direction[axis] * self.t_max;
+            inside = inside
+                & lower.less_equal(origin)
+                & origin.less_equal(upper)
+                & (lower + margin).less_equal(end)
+                & end.less_equal(upper - margin);
+        }
+        self.valid.without(inside).bits() == 0
     }
 }
 
@@ -384,11 +416,16 @@ fn column<F: Floats>(vector: F) -> Column {
     lanes
 }
 
-/// The exact test in the lanes of the set bits, where it finds a crossing.
+/// The exact test in the lanes that `f32` cannot decide, where it finds a crossing.
 fn exact_crossings<F: Floats>(
-    lanes: u32,
+    set: F::Set,
     corners: &[[F; 3]; 3],
 ) -> impl Iterator<Item = (usize, [f32; 3])> {
+    let edges = Edges::new(corners[0], corners[1], corners[2]);
+    let lanes = edges
+        .inside(set)
+        .without(edges.certainly_inside(set))
+        .bits();
     let corners = corners.map(|corner| corner.map(column));
     (0..F::LANES)
         .filter(move |lane| lanes >> lane & 1 == 1)

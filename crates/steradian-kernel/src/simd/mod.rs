@@ -31,6 +31,8 @@ pub(crate) trait Simd: Copy {
 pub(crate) trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> {
     /// Lane `i` in bit `i`.
     fn bits(self) -> u32;
+    /// True where this is and the other is not.
+    fn without(self, other: Self) -> Self;
 }
 
 /// A vector of `f32`.
@@ -112,6 +114,8 @@ mod tests {
             assert_eq!(less.bits() >> lane & 1 == 1, x < y);
             assert_eq!(a.less_equal(b).bits() >> lane & 1 == 1, x <= y);
             assert_eq!((less | b.less(a)).bits() >> lane & 1 == 1, x != y);
+            let equal = a.less_equal(b).without(less);
+            assert_eq!(equal.bits() >> lane & 1 == 1, x == y);
         }
     }
 

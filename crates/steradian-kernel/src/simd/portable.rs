@@ -99,6 +99,10 @@ impl Mask for Bits {
     fn bits(self) -> u32 {
         u32::from(self.0)
     }
+    #[inline(always)]
+    fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
 }
 
 impl BitAnd for Bits {
@@ -160,5 +164,9 @@ impl Mask for bool {
     #[inline(always)]
     fn bits(self) -> u32 {
         u32::from(self)
+    }
+    #[inline(always)]
+    fn without(self, other: Self) -> Self {
+        self & !other
     }
 }

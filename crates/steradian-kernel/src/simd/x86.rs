@@ -202,6 +202,10 @@ impl Mask for Mask256 {
     fn bits(self) -> u32 {
         intrinsic!(_mm256_movemask_ps(self.0)).cast_unsigned()
     }
+    #[inline(always)]
+    fn without(self, other: Self) -> Self {
+        Self(intrinsic!(_mm256_andnot_ps(other.0, self.0)))
+    }
 }
 
 macro_rules! bit_masks {
@@ -224,6 +228,10 @@ macro_rules! bit_masks {
             #[inline(always)]
             fn bits(self) -> u32 {
                 u32::from(self.0)
+            }
+            #[inline(always)]
+            fn without(self, other: Self) -> Self {
+                Self(self.0 & !other.0)
             }
         }
     )*};
