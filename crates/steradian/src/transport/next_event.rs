@@ -14,10 +14,11 @@
 use std::f32::consts::{FRAC_1_PI, PI, TAU};
 
 use glam::Vec3;
+use steradian_kernel::Work;
 
 use super::aim::{Aim, is_aimed_at};
 use super::choice::{Sampled, by_power, choose};
-use super::columns::{Place, Shadows, Vertices, Workspace};
+use super::columns::{BATCH, Place, Shadows, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::Hit;
 use super::light_tree::Receiving;
@@ -25,7 +26,7 @@ use super::media::AIR;
 use super::panel::{Panel, SamplePanel};
 use super::path::Tracer;
 use super::profile::Stage;
-use super::tables::{Candidates, Choice, EmitterShape, Receiver, Tables};
+use super::tables::{Candidates, Choice, EmitterShape, NO_TINT, Receiver, Tables};
 use super::towards::cone;
 use crate::geometry::{Direction, Vector};
 
@@ -270,6 +271,21 @@ impl NextEvent<'_> {
             .transmittance
             .trace(tables, &shadows.rays, of_ray, self.tracer.set);
         let clear = !tables.lets_pass && tables.media.is_empty();
+        if let ([emitter], true) = (&tables.emitters[..], clear)
+            && emitter.power.tint == NO_TINT
+        {
+            self.tracer.set.run(Deliver {
+                power: &emitter.power.lanes[..tables.lanes],
+                stopped: shadows.transmittance.stopped(),
+                gain: &shadows.gain,
+                vertices,
+                gathered: self
+                    .tracer
+                    .columns_of(&mut workspace.gathered, emitter.group),
+            });
+            workspace.watch.lap(Stage::Shadows);
+            return;
+        }
         for i in 0..vertices.len() {
             let gain = shadows.gain[i];
             if gain == 0.0 || shadows.transmittance.stops(i) {
@@ -342,6 +358,35 @@ impl NextEvent<'_> {
             | EmitterShape::Directional { .. }
             | EmitterShape::Luminaire { .. }
             | EmitterShape::Everywhere(_) => 0.0,
+        }
+    }
+}
+
+/// Adds what arrives of a single emitter, the same everywhere on it, where nothing dims it on the way.
+struct Deliver<'a> {
+    power: &'a [f32],
+    stopped: &'a [bool],
+    gain: &'a [f32],
+    vertices: &'a Vertices,
+    /// By lane and slot.
+    gathered: &'a mut [f32],
+}
+
+impl Work for Deliver<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let n = self.vertices.len();
+        let (stopped, gain) = (&self.stopped[..n], &self.gain[..n]);
+        let slots = &self.vertices.identity.slot[..n];
+        let lanes = self.gathered.chunks_mut(BATCH).zip(self.power);
+        for ((column, power), response) in lanes.zip(&self.vertices.response) {
+            let response = &response[..n];
+            for i in 0..n {
+                let light = response[i] * power * gain[i];
+                column[slots[i] as usize] += if stopped[i] { 0.0 } else { light };
+            }
         }
     }
 }

@@ -347,10 +347,18 @@ impl Tracer<'_> {
     /// Adds light of a group to a path.
     #[inline(always)]
     pub fn add(&self, gathered: &mut [f32], group: u32, slot: u32, value: impl Fn(usize) -> f32) {
-        let group = if self.merge_groups { 0 } else { group as usize };
-        for lane in 0..self.tables.lanes {
-            gathered[(group * self.tables.lanes + lane) * BATCH + slot as usize] += value(lane);
+        let columns = self.columns_of(gathered, group).chunks_mut(BATCH);
+        for (lane, column) in columns.enumerate() {
+            column[slot as usize] += value(lane);
         }
+    }
+
+    /// Where light of a group is gathered, lane by lane.
+    #[inline(always)]
+    pub fn columns_of<'a>(&self, gathered: &'a mut [f32], group: u32) -> &'a mut [f32] {
+        let group = if self.merge_groups { 0 } else { group as usize };
+        let lanes = self.tables.lanes * BATCH;
+        &mut gathered[group * lanes..(group + 1) * lanes]
     }
 }
 

@@ -38,6 +38,11 @@ impl Transmittance {
         }
     }
 
+    /// Which segments meet a surface.
+    pub fn stopped(&self) -> &[bool] {
+        &self.stopped
+    }
+
     /// Whether nothing gets along a segment.
     #[inline(always)]
     pub fn stops(&self, segment: usize) -> bool {
