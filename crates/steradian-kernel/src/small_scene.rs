@@ -291,7 +291,8 @@ impl<F: Floats> Group<F> {
     /// Whether all valid rays begin and end within a box: a segment between two points of a convex body meets none of its faces, unless it
     /// runs along one, which is to see it edge-on.
     ///
-    /// Ends are off by two roundings of numbers below three times the greatest coordinate along the axis; they count if they clear the faces by that.
+    /// Ends are off by two roundings of numbers below three times the greatest coordinate along the axis; both count as within if they clear
+    /// the faces by more.
     #[inline(always)]
     fn stays_within(&self, set: F::Set, bounds: &Bounds) -> bool {
         let mut inside = self.valid;
@@ -301,11 +302,10 @@ impl<F: Floats> Group<F> {
             let (lower, upper) = (F::splat(set, lower), F::splat(set, upper));
             let origin = self.origin[axis];
             let end = origin + self.direction[axis] * self.t_max;
+            let (lower, upper) = (lower + margin, upper - margin);
             inside = inside
-                & lower.less_equal(origin)
-                & origin.less_equal(upper)
-                & (lower + margin).less_equal(end)
-                & end.less_equal(upper - margin);
+                & lower.less_equal(origin.minimum(end))
+                & origin.maximum(end).less_equal(upper);
         }
         self.valid.without(inside).bits() == 0
     }

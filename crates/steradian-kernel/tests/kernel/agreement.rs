@@ -76,6 +76,43 @@ fn batch() -> impl Strategy<Value = RayBatch> {
     })
 }
 
+/// The cube from −1 to 1, whose faces are those of its bounds, and a triangle in it.
+fn room() -> Geometry {
+    let corner = |k: u8| [0, 1, 2].map(|axis| f32::from(k >> axis & 1) * 2.0 - 1.0);
+    let faces = [
+        [0, 1, 3, 2],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 3, 7, 6],
+        [0, 2, 6, 4],
+        [1, 3, 7, 5],
+    ];
+    let halves = faces
+        .into_iter()
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    let mut positions: Vec<_> = (0..8).map(corner).collect();
+    positions.extend([[-0.5, 0.1, 0.2], [0.9, -0.3, 0.4], [0.1, 0.2, -0.8]]);
+    Geometry {
+        positions,
+        triangles: halves.chain([[8, 9, 10]]).collect(),
+        quadrics: vec![],
+    }
+}
+
+/// Segments within the room, some of them to its very walls, out of it, and past it.
+#[test]
+fn walls_stop_what_leaves_the_room_and_nothing_else() {
+    let mut random = random::Random::new(7);
+    for reach in [0.999, 1.0, 1.001, 3.0] {
+        let mut batch = RayBatch::default();
+        for _ in 0..4096 {
+            let (from, to) = (random.point(reach), random.point(reach));
+            batch.push(from, [0, 1, 2].map(|k| to[k] - from[k]), 1.0);
+        }
+        assert_agreement(&room(), &batch);
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
