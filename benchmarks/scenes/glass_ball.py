@@ -6,7 +6,7 @@ NAME = "Glass ball"
 SIZE = (128, 128)
 DEPTH = 10
 SAMPLES = 64
-LONG = 144
+LONG = 64
 
 
 def ours(_folder):

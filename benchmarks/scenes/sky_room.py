@@ -6,7 +6,7 @@ NAME = "Room under the sky"
 SIZE = (128, 128)
 DEPTH = 8
 SAMPLES = 64
-LONG = 144
+LONG = 64
 
 
 def ours(_folder):

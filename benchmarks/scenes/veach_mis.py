@@ -6,7 +6,7 @@ NAME = "Veach's plates"
 SIZE = (128, 128)
 DEPTH = 6
 SAMPLES = 64
-LONG = 144
+LONG = 64
 
 LAMPS = {
     (-3.75, 0, 0): (0.033333, 901.803),

@@ -104,6 +104,7 @@ fn measure(
 fn peers(root: &Path, part: &Part, options: &Options) -> Result<Vec<String>, String> {
     let wanted: &[&str] = match part.program {
         "kernel.py" => &["--embree"],
+        "grid.py" => &["--radiance"],
         "pictures.py" => &["--bathroom"],
         _ => &[],
     };
@@ -113,7 +114,7 @@ fn peers(root: &Path, part: &Part, options: &Options) -> Result<Vec<String>, Str
             words.extend([flag.to_owned(), path.display().to_string()]);
         }
     }
-    if part.name == "kernel" {
+    if matches!(part.name, "kernel" | "triangles") {
         let build = [
             "bench",
             "--package",

@@ -24,7 +24,20 @@ const fn picture(
     }
 }
 
-pub const PARTS: [Part; 7] = [
+const fn scaling(
+    name: &'static str,
+    arguments: &'static [&'static str],
+    about: &'static str,
+) -> Part {
+    Part {
+        name,
+        program: "scaling.py",
+        arguments,
+        about,
+    }
+}
+
+pub const PARTS: [Part; 13] = [
     Part {
         name: "kernel",
         program: "kernel.py",
@@ -61,14 +74,46 @@ pub const PARTS: [Part; 7] = [
         &["--scenes", "sky_room"],
         "the same of a room lit through a window; Mitsuba",
     ),
+    Part {
+        name: "grid",
+        program: "grid.py",
+        arguments: &[],
+        about: "seconds to 1 % of irradiance at 20 x 20 points; Radiance, Mitsuba",
+    },
+    scaling("threads", &["--of", "threads"], "two threads beside one"),
+    scaling(
+        "triangles",
+        &["--of", "triangles"],
+        "build time and memory from 10 000 to 10 million; Embree",
+    ),
+    scaling(
+        "lights",
+        &["--of", "lights"],
+        "time to 2 % under 10 to 10 000 lamps",
+    ),
+    scaling(
+        "sensors",
+        &["--of", "sensors"],
+        "time and memory of 1 000 to 1 million points",
+    ),
+    scaling(
+        "memory",
+        &["--of", "memory"],
+        "peak memory of a picture; Mitsuba",
+    ),
 ];
 
 /// A flag with a value, the variable that stands for it, and the value's name and meaning.
-const PATHS: [(&str, &str, &str); 3] = [
+const PATHS: [(&str, &str, &str); 4] = [
     (
         "--mitsuba",
         "STERADIAN_MITSUBA",
         "PYTHON      a Python that has mitsuba and numpy; runs all programs of the suite",
+    ),
+    (
+        "--radiance",
+        "STERADIAN_RADIANCE",
+        "FOLDER      Radiance's programs oconv, rtrace, genbox, xform",
     ),
     (
         "--embree",
