@@ -30,7 +30,10 @@ fn word_agrees(shown: &str, found: &str, is_error: bool) -> bool {
     if shown == found || shown == "…" {
         return true;
     }
-    let [Ok(shown), Ok(found)] = [shown, found].map(|word| word.parse::<f64>()) else {
+    let [Ok(shown), Ok(found)] = [shown, found].map(|word| {
+        let number = word.trim_matches(['(', ')', ',']);
+        number.parse::<f64>()
+    }) else {
         return false;
     };
     match is_error {

@@ -137,3 +137,45 @@ fn the_lights_of_a_scene_are_rated() {
     assert!(hidden["unified_glare_rating"].is_null());
     assert_eq!(hidden["seen"].as_array().unwrap().len(), 0);
 }
+
+/// Without a picture the lights are rated as beside one, to the last bit.
+#[test]
+fn lights_are_rated_without_a_picture() {
+    let folder = Folder::new();
+    let beside = disc(&folder, false);
+    let path = folder.path("disc.toml");
+    let arguments = [
+        "glare",
+        &path,
+        "--observer",
+        "0,0,0",
+        "--look",
+        "1,0,0",
+        "--lights",
+    ];
+    let text = steradian(&[&arguments[..], &["--format", "json"]].concat()).fine();
+    let object: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(object["lights"], beside);
+    assert!(object["sources"].is_null());
+    let table = steradian(&arguments).fine();
+    assert!(
+        table.starts_with("unified glare rating of the lights: "),
+        "{table}"
+    );
+    let with_picture = [&arguments[..], &["--samples", "8"]].concat();
+    assert!(
+        steradian(&with_picture)
+            .error()
+            .contains("cannot be used with")
+    );
+    let message = steradian(&[
+        "glare",
+        "a.hdr",
+        "--observer",
+        "0,0,0",
+        "--look",
+        "1,0,0",
+        "--lights",
+    ]);
+    assert!(message.error().contains("not at a picture"));
+}

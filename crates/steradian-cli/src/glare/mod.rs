@@ -3,7 +3,7 @@
 mod report;
 mod scene;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use steradian::geometry::{Direction, Point, Vector};
@@ -21,7 +21,8 @@ use crate::status::{Failure, Outcome};
 /// A picture is one of luminance: Radiance's HDR, EXR or PFM, whose view looks where the observer looks. Fisheyes of 180° show all that
 /// an observer sees; less than that leaves out light at the eye. Pictures of Radiance state their view; others need --view. Of a scene, the view of
 /// --observer is rendered first; beside it, the unified glare rating of the scene's lights is found from their luminances, how much of them is seen, and
-/// the illuminance at the eye, measured within 1 %.
+/// the illuminance at the eye, measured within 1 %. With --lights that is all, in seconds; the picture takes longer, the more so the more pixels and samples
+/// it has.
 ///
 /// What is brighter than the threshold is a source of glare; what is brighter than the peak is a source of its own. Errors come from the picture's own
 /// errors (EXR of `steradian render`, NAME.error.pfm beside NAME.pfm) and include nothing else.
@@ -69,6 +70,7 @@ Examples:
   steradian glare office.hdr
   steradian glare office.exr --view fisheye-equidistant
   steradian glare office.hdr --threshold 5x --task 400,520,30deg --format json
+  steradian glare room.toml --observer 2,0.5,1.2 --look 0,1,0 --lights
   steradian glare room.toml --observer 2,0.5,1.2 --look 0,1,0 --resolution 800x800";
 
 /// Projections by name.
@@ -144,6 +146,9 @@ struct Found {
 
 /// Prints the figures.
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    if arguments.observer.rates_lights_only() {
+        return rate_lights(arguments);
+    }
     let (map, lights) = seen(arguments)?;
     let camera = camera(&map, arguments)?;
     let errors = map.std_errors.as_deref();
@@ -167,6 +172,26 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     ))
 }
 
+/// Prints the rating of a scene's lights.
+fn rate_lights(arguments: &Arguments) -> Result<Outcome, Failure> {
+    refuse_picture(&arguments.input)?;
+    let lights = arguments.observer.lights(&arguments.input)?;
+    output::print(&match arguments.format {
+        Format::Table => report::lights_table(&lights),
+        Format::Json => format!("{:#}\n", report::lights_json(&arguments.input, &lights)),
+    })?;
+    Ok(Outcome::fine_if(lights.illuminance.converged))
+}
+
+fn refuse_picture(path: &Path) -> Result<(), Failure> {
+    match luminance_map::is_luminance_map(path) {
+        true => Err(Failure::message(
+            "--observer looks at a scene, not at a picture",
+        )),
+        false => Ok(()),
+    }
+}
+
 /// The picture, and the lights of a scene.
 fn seen(arguments: &Arguments) -> Result<(LuminanceMap, Option<scene::Lights>), Failure> {
     let path = &arguments.input;
@@ -175,9 +200,7 @@ fn seen(arguments: &Arguments) -> Result<(LuminanceMap, Option<scene::Lights>), 
         return Ok((view.map, Some(view.lights)));
     }
     if arguments.observer.is_there() {
-        return Err(Failure::message(
-            "--observer looks at a scene, not at a picture",
-        ));
+        refuse_picture(path)?;
     }
     let map = luminance_map::read(path, &DiskFiles::default()).map_err(failed)?;
     Ok((map, None))

@@ -86,6 +86,21 @@ pub fn table(path: &Path, found: &Found) -> String {
     format!("{heading}\n{}{lights}{errors}", sources(&all.sources))
 }
 
+/// For people: what is known without a picture.
+pub fn lights_table(found: &Lights) -> String {
+    lights(found).trim_end().to_owned() + "\n"
+}
+
+/// For programs: what is known without a picture.
+pub fn lights_json(path: &Path, found: &Lights) -> Value {
+    json!({
+        "schema": SCHEMA,
+        "version": env!("CARGO_PKG_VERSION"),
+        "scene": path.display().to_string(),
+        "lights": of_lights(found),
+    })
+}
+
 /// UGR of the lights of a scene, and which they are.
 fn lights(lights: &Lights) -> String {
     let with_error = |estimate: &Estimate| {

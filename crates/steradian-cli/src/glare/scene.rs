@@ -64,6 +64,13 @@ impl Lights {
     }
 }
 
+/// A scene with a camera and a meter at the eye.
+struct Looking {
+    scene: Scene,
+    eye: Point,
+    gaze: Gaze,
+}
+
 /// Who looks in a scene.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Observer in a scene")]
@@ -77,6 +84,9 @@ pub struct Observer {
     /// What is up for the observer
     #[arg(long, value_name = "DX,DY,DZ", value_parser = values::direction, allow_hyphen_values = true, default_value = "0,0,1", requires = "observer")]
     up: Direction,
+    /// Rate the lights only, by unified glare rating, and make no picture: quick, but bright surfaces and windows are no sources
+    #[arg(long, requires = "observer", conflicts_with_all = ["resolution", "samples", "view", "threshold", "task", "reach", "peak", "low_light"])]
+    lights: bool,
     /// Width and height in pixels of the view, an equisolid fisheye of 190°, of which what is in front counts
     #[arg(long, value_name = "WxH", value_parser = values::resolution, default_value = "512x512", requires = "observer")]
     resolution: [u32; 2],
@@ -96,8 +106,30 @@ impl Observer {
         self.observer.is_some()
     }
 
+    /// Whether only lights are rated.
+    pub fn rates_lights_only(&self) -> bool {
+        self.lights
+    }
+
     /// What is seen.
     pub fn view(&self, path: &Path) -> Result<View, Failure> {
+        let looking = self.looking(path)?;
+        let mut watch = Watch::new()?;
+        let picture = render(&looking.scene, 0, &self.options(), &mut watch)?;
+        let lights = self.measured(looking, watch)?;
+        tell(&picture);
+        Ok(View {
+            map: luminances(&picture)?,
+            lights,
+        })
+    }
+
+    /// The lights that are seen; no picture is made.
+    pub fn lights(&self, path: &Path) -> Result<Lights, Failure> {
+        self.measured(self.looking(path)?, Watch::new()?)
+    }
+
+    fn looking(&self, path: &Path) -> Result<Looking, Failure> {
         let (Some(eye), Some(look)) = (self.observer, self.look) else {
             return Err(Failure::message(
                 "the glare in a scene is that for an observer: give --observer X,Y,Z and --look DX,DY,DZ",
@@ -109,7 +141,7 @@ impl Observer {
             SensorKind::Camera(self.camera(eye, look)),
             SensorKind::Irradiance(Receivers::Points(vec![(eye, look.to_vector())])),
         ];
-        let scene = load::scene_with(path, |description| {
+        let loaded = load::scene_with(path, |description| {
             let sensor = |(name, kind): (&str, SensorKind)| SensorDescription {
                 name: name.to_owned(),
                 response: Some(Response::Photopic),
@@ -119,27 +151,16 @@ impl Observer {
             description.sensors = SENSORS.into_iter().zip(kinds).map(sensor).collect();
             Ok(())
         })?;
-        let scene = scene.scene;
-        let mut watch = Watch::new()?;
-        let picture = render(&scene, 0, &self.options(), &mut watch)?;
-        let lights = self.lights(&scene, eye, gaze, &mut watch)?;
-        if watch.finish() {
-            remark("stopped by Ctrl-C: this is the view so far");
-        }
-        tell(&picture);
-        Ok(View {
-            map: luminances(&picture)?,
-            lights,
+        Ok(Looking {
+            scene: loaded.scene,
+            eye,
+            gaze,
         })
     }
 
-    fn lights(
-        &self,
-        scene: &Scene,
-        eye: Point,
-        gaze: Gaze,
-        watch: &mut Watch,
-    ) -> Result<Lights, Failure> {
+    /// The lights, and the illuminance at the eye.
+    fn measured(&self, looking: Looking, mut watch: Watch) -> Result<Lights, Failure> {
+        let Looking { scene, eye, gaze } = looking;
         let options = MeasureOptions {
             plan: Plan {
                 seed: self.seed,
@@ -153,7 +174,10 @@ impl Observer {
             sensors: Some(vec![SENSORS[1].to_owned()]),
             ..MeasureOptions::default()
         };
-        let measured = measure(scene, &options, watch)?;
+        let measured = measure(&scene, &options, &mut watch)?;
+        if watch.finish() {
+            remark("stopped by Ctrl-C: this is the view so far");
+        }
         let readings = measured.readings();
         let reading = readings.iter().find(|reading| reading.unit == "lx");
         let readout = scene.sensors()[1]
@@ -163,7 +187,7 @@ impl Observer {
         let (Some(reading), Some(readout)) = (reading, readout) else {
             return Err(Failure::message(NO_LUMINANCE));
         };
-        let seen = SeenLights::of(scene, eye, gaze, readout, options.instruction_set);
+        let seen = SeenLights::of(&scene, eye, gaze, readout, options.instruction_set);
         Ok(Lights {
             illuminance: reading.estimate,
             rating: seen.unified_glare_rating(&reading.estimate),
