@@ -8,6 +8,7 @@ DEPTH = 8
 SAMPLES = 64
 LONG = 144
 FLOOR = 0.01
+CYCLES = "cornell_in_cycles.py"
 
 
 def ours(_folder):

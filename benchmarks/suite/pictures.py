@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Correct digits per processor second of pictures: 1 / (relMSE · CPU s), beside Mitsuba 3 on the same scenes.
 
-usage: pictures.py --scenes SCENE … [--program STERADIAN] [--rounds 5] [--quick] [--bathroom bathroom_cc0.glb]
+usage: pictures.py --scenes SCENE … [--program STERADIAN] [--cycles PYTHON] [--rounds 5] [--quick] [--bathroom bathroom_cc0.glb]
 
 SCENE is a module of benchmarks/scenes: cornell, veach_mis, bathroom, hall, glass_ball, sky_room. Run it by a Python that has mitsuba.
 
 Both sides take the same samples a pixel and cut paths off at the same number of segments; Gaussian filter of σ = ½ pixel, one
 thread. Ours draws Owen-scrambled Sobol' points. Mitsuba's `llvm_ad_rgb` and `scalar_rgb` use the multijitter sampler, its best.
 CPU seconds are user and system time: of our process less those of a picture of one pixel; of Mitsuba's warm renders, without
-loading and compiling.
+loading and compiling. Cycles (`--cycles PYTHON`, a Python that has bpy) renders the Cornell box by its default sampler; its
+CPU seconds are less those of a picture of 16 x 16 pixels.
 
 The reference of a scene is the mean of 16 long pictures of ours. It counts only if Mitsuba's mean of as many pictures agrees: Welch's t over
 tiles and channels, at a level that leaves a family-wise false alarm of 1 % (Šidák 1967). With x a picture and r the reference,
@@ -25,6 +26,7 @@ import importlib
 import math
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import time
@@ -44,6 +46,7 @@ BORDER = 2
 FALSE_ALARM = 0.01
 GOALS = {"cornell": 3.0}
 INSTALL = "python3 -m venv venv && venv/bin/pip install mitsuba, and give venv/bin/python by --mitsuba (DRJIT_LIBLLVM_PATH names libLLVM.so)"
+CYCLES_INSTALL = "python3 -m venv venv-bpy && venv-bpy/bin/pip install bpy, and give venv-bpy/bin/python by --cycles"
 
 
 class Picture(typing.NamedTuple):
@@ -91,6 +94,26 @@ class Mitsuba:
         start = time.process_time()
         values = numpy.array(self.mitsuba.render(self.scene, spp=samples, seed=seed))
         return Picture(values[..., :3].astype(float), time.process_time() - start)
+
+
+class Cycles:
+    """Another Python renders on demand, where a scene has a program for it."""
+
+    def __init__(self, python, scene, folder):
+        self.output, self.size = folder / "cycles.npy", scene.SIZE[0]
+        command = [python, pathlib.Path(__file__).with_name(scene.CYCLES), self.output]
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+        self.process = subprocess.Popen([*map(str, command)], text=True, bufsize=1, **pipes)
+        self.name = f"Cycles {self.process.stdout.readline().strip()}"
+        self.start_up = self.ask(4, 0, 16)
+
+    def ask(self, samples, seed, size):
+        print(samples, seed, size, file=self.process.stdin, flush=True)
+        return float(self.process.stdout.readline())
+
+    def render(self, samples, seed):
+        seconds = self.ask(samples, seed, self.size) - self.start_up
+        return Picture(numpy.load(self.output).astype(float), seconds)
 
 
 def read_pfm(path):
@@ -206,11 +229,14 @@ def efficiency(picture, truth):
 def report(name, scene, picture, peers, truth, samples, round):
     """The figures of one round."""
     width, height = scene.SIZE
-    how = f"{width}x{height}, {samples} spp, at most {scene.DEPTH} segments, Gaussian σ=½, 1 thread; ours Sobol', theirs multijitter"
+    how = f"{width}x{height}, {samples} spp, at most {scene.DEPTH} segments, Gaussian σ=½, 1 thread; Sobol', Mitsuba multijitter, Cycles default"
     paths = width * height * samples / 1e6
     for peer, theirs in peers:
         common = {"round": round, "peer": peer, "how": how}
         goal = GOALS.get(name, 1.0) if "llvm" in peer else 1.0
+        if "Cycles" in peer:
+            off = inner(theirs.values).mean() / inner(truth.mean).mean() - 1
+            measure.note(f"{scene.NAME}: {peer}, round {round + 1}: whole picture over the reference - 1 = {off:+.3%}")
         measure.figure(
             f"{scene.NAME}, 1/(relMSE·CPU s)", "1/s", efficiency(picture, truth), theirs=efficiency(theirs, truth), goal=goal, **common
         )
@@ -232,8 +258,14 @@ def compare(name, given, mitsuba, folder):
     if mitsuba:
         variants = ("llvm_ad_rgb",) if given.quick else ("llvm_ad_rgb", "scalar_rgb")
         peers = {f"Mitsuba {mitsuba.__version__} {variant}": Mitsuba(scene, variant, samples, folder) for variant in variants}
+    first = next(iter(peers.values()), None)
+    if hasattr(scene, "CYCLES") and given.cycles:
+        cycles = Cycles(given.cycles, scene, folder)
+        peers[cycles.name] = cycles
+    elif hasattr(scene, "CYCLES"):
+        measure.missing("Cycles", CYCLES_INSTALL)
     measure.progress(f"{name}: reference")
-    truth = agreed(name, scene, ours, next(iter(peers.values()), None), long, given.cache)
+    truth = agreed(name, scene, ours, first, long, given.cache)
     if not truth:
         return None
     for peer in peers.values():
@@ -248,6 +280,7 @@ def main():
     given = measure.options(
         __doc__,
         scenes={"nargs": "+", "choices": SCENES, "default": SCENES, "metavar": "SCENE"},
+        cycles={"type": pathlib.Path, "default": os.environ.get("STERADIAN_CYCLES")},
         bathroom={"type": pathlib.Path, "default": os.environ.get("STERADIAN_BATHROOM")},
     )
     try:

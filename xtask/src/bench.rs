@@ -105,7 +105,7 @@ fn peers(root: &Path, part: &Part, options: &Options) -> Result<Vec<String>, Str
     let wanted: &[&str] = match part.program {
         "kernel.py" => &["--embree"],
         "grid.py" => &["--radiance"],
-        "pictures.py" => &["--bathroom"],
+        "pictures.py" => &["--cycles", "--bathroom"],
         _ => &[],
     };
     let mut words = Vec::new();

@@ -47,7 +47,7 @@ pub const PARTS: [Part; 13] = [
     picture(
         "cornell",
         &["--scenes", "cornell"],
-        "1/(relMSE·CPU s) of the Cornell box; Mitsuba",
+        "1/(relMSE·CPU s) of the Cornell box; Mitsuba, Cycles",
     ),
     picture(
         "veach-mis",
@@ -104,7 +104,7 @@ pub const PARTS: [Part; 13] = [
 ];
 
 /// A flag with a value, the variable that stands for it, and the value's name and meaning.
-const PATHS: [(&str, &str, &str); 4] = [
+const PATHS: [(&str, &str, &str); 5] = [
     (
         "--mitsuba",
         "STERADIAN_MITSUBA",
@@ -119,6 +119,11 @@ const PATHS: [(&str, &str, &str); 4] = [
         "--embree",
         "STERADIAN_EMBREE",
         "FILE.c      the program told in benchmarks/embree/README.md",
+    ),
+    (
+        "--cycles",
+        "STERADIAN_CYCLES",
+        "PYTHON      a Python that has bpy",
     ),
     (
         "--bathroom",
