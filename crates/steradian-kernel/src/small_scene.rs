@@ -12,7 +12,7 @@ use crate::geometry::COORDINATE_LIMIT;
 use crate::node::Bounds;
 use crate::prepared_ray::DIRECTION_RANGE;
 use crate::simd::{Floats, Mask, Simd};
-use crate::triangle::{Edges, Shear, exact_intersection};
+use crate::triangle::{Edges, Intersection, Shear, intersect_sheared};
 
 /// Up to this many triangles, trying all is faster than a tree.
 pub(crate) const MOST_TRIANGLES: usize = 64;
@@ -34,8 +34,9 @@ pub(crate) struct SmallScene {
     inner_vertices: usize,
     /// Indices of the corners.
     triangles: Vec<[u16; 3]>,
+    quads: Vec<Quad>,
     /// The triangles that do not lie in a face of `bounds`.
-    inner: Vec<[u16; 3]>,
+    inner: Vec<Quad>,
     bounds: Bounds,
     /// What the triangles are called outside, in ascending order, after the name of a miss.
     numbers: Vec<u32>,
@@ -55,22 +56,25 @@ impl SmallScene {
             vertices: Vec::new(),
             inner_vertices: 0,
             triangles: Vec::new(),
+            quads: Vec::new(),
             inner: Vec::new(),
             bounds,
             numbers: vec![MISS],
         };
         scene.numbers.extend(numbers);
+        let mut inner = Vec::new();
         for corners in numbers.iter().map(|&number| corners(number)) {
             if !bounds.has_in_a_face(&Bounds::of_points(&corners)) {
-                let triangle = corners.map(|corner| scene.vertex(corner));
-                scene.inner.push(triangle);
+                inner.push(corners.map(|corner| scene.vertex(corner)));
             }
         }
+        scene.inner = quads(&inner);
         scene.inner_vertices = scene.vertices.len();
         for &number in numbers {
             let triangle = corners(number).map(|corner| scene.vertex(corner));
             scene.triangles.push(triangle);
         }
+        scene.quads = quads(&scene.triangles);
         Some(scene)
     }
 
@@ -104,13 +108,13 @@ impl SmallScene {
         let mut sheared = vec![[S::Wide::splat(set, 0.0); 3]; self.vertices.len()];
         for (index, out) in out.chunks_mut(S::Wide::LANES).enumerate() {
             let group = Group::<S::Wide>::load(set, rays, index * S::Wide::LANES, out.len());
-            let (vertices, triangles) = if group.stays_within(set, &self.bounds) {
+            let (vertices, quads) = if group.stays_within(set, &self.bounds) {
                 (&self.vertices[..self.inner_vertices], &self.inner)
             } else {
-                (&self.vertices[..], &self.triangles)
+                (&self.vertices[..], &self.quads)
             };
             shear(set, vertices, &group, &mut sheared);
-            let met = Self::occluded_of_group(set, triangles, &group, &sheared);
+            let met = occluded_of_group(set, quads, &group, &sheared);
             for (lane, out) in out.iter_mut().enumerate() {
                 *out = met >> lane & 1 == 1;
             }
@@ -126,48 +130,42 @@ impl SmallScene {
     ) -> Best<F> {
         let zero = F::splat(set, 0.0);
         let mut best = Best::none(set);
-        let mut postponed = zero.less(zero);
-        for (index, triangle) in self.triangles.iter().enumerate() {
-            let [a, b, c] = corners(triangle, sheared);
-            let edges = Edges::new(a, b, c);
-            let certain = edges.certainly_inside(set);
-            postponed = postponed | edges.inside(set).without(certain);
-            let crossing = edges.intersection([a[2], b[2], c[2]]);
+        let mut undecided = zero.less(zero);
+        for quad in &self.quads {
+            let found = quad.crossing(set, sheared);
+            undecided = undecided | found.undecided;
+            let crossing = found.crossing;
             let on_ray = zero.less(crossing.t) & crossing.t.less_equal(group.t_max);
-            let nearer = certain & on_ray & crossing.t.less(best.t);
+            let nearer = found.certain & on_ray & crossing.t.less(best.t);
             best.t = F::select(nearer, crossing.t, best.t);
-            best.index = F::select(nearer, F::splat(set, (index + 1) as f32), best.index);
+            best.index = F::select(nearer, found.index, best.index);
             best.v = F::select(nearer, crossing.v, best.v);
             best.w = F::select(nearer, crossing.w, best.w);
             best.determinant = F::select(nearer, crossing.determinant, best.determinant);
         }
-        if postponed.bits() == 0 {
+        if undecided.bits() == 0 {
             best
         } else {
-            self.closest_exactly(set, group, sheared, best)
+            self.closest_one_by_one(set, group, sheared)
         }
     }
 
-    /// The same for the triangles that `f32` could not decide.
+    /// The same, triangle by triangle and lane by lane, with the exact test where it is needed.
     #[cold]
-    fn closest_exactly<F: Floats>(
+    fn closest_one_by_one<F: Floats>(
         &self,
         set: F::Set,
         group: &Group<F>,
         sheared: &[[F; 3]],
-        best: Best<F>,
     ) -> Best<F> {
-        let (mut t, mut index) = (column(best.t), column(best.index));
-        let (mut v, mut w) = (column(best.v), column(best.w));
-        let (mut determinant, t_max) = (column(best.determinant), column(group.t_max));
-        for (place, triangle) in self.triangles.iter().enumerate() {
-            let number = (place + 1) as f32;
-            for (lane, crossing) in exact_crossings(set, &corners(triangle, sheared)) {
-                let is_nearer =
-                    crossing[0] < t[lane] || (crossing[0] == t[lane] && number < index[lane]);
-                if crossing[0] > 0.0 && crossing[0] <= t_max[lane] && is_nearer {
+        let none = Best::none(set);
+        let (mut t, mut index) = (column(none.t), column(none.index));
+        let (mut v, mut w, t_max) = (column(none.v), column(none.w), column(group.t_max));
+        for (place, &corners) in self.triangles.iter().enumerate() {
+            for (lane, crossing) in crossings(corners, sheared) {
+                if crossing[0] > 0.0 && crossing[0] <= t_max[lane] && crossing[0] < t[lane] {
                     [t[lane], v[lane], w[lane]] = crossing;
-                    (index[lane], determinant[lane]) = (number, 1.0);
+                    index[lane] = (place + 1) as f32;
                 }
             }
         }
@@ -176,62 +174,109 @@ impl SmallScene {
             index: F::load(set, &index),
             v: F::load(set, &v),
             w: F::load(set, &w),
-            determinant: F::load(set, &determinant),
+            determinant: none.determinant,
         }
-    }
-
-    /// Lanes whose ray meets one of the triangles.
-    #[inline(always)]
-    fn occluded_of_group<F: Floats>(
-        set: F::Set,
-        triangles: &[[u16; 3]],
-        group: &Group<F>,
-        sheared: &[[F; 3]],
-    ) -> u32 {
-        let zero = F::splat(set, 0.0);
-        let mut met = zero.less(zero);
-        let mut postponed = met;
-        for triangle in triangles {
-            let [a, b, c] = corners(triangle, sheared);
-            let edges = Edges::new(a, b, c);
-            let certain = edges.certainly_inside(set);
-            postponed = postponed | edges.inside(set).without(certain);
-            let t = edges.intersection([a[2], b[2], c[2]]).t;
-            met = met | certain & zero.less(t) & t.less(group.t_max);
-        }
-        if postponed.without(met).bits() == 0 {
-            met.bits()
-        } else {
-            met.bits() | Self::occluded_exactly(set, triangles, group, sheared)
-        }
-    }
-
-    #[cold]
-    fn occluded_exactly<F: Floats>(
-        set: F::Set,
-        triangles: &[[u16; 3]],
-        group: &Group<F>,
-        sheared: &[[F; 3]],
-    ) -> u32 {
-        let t_max = column(group.t_max);
-        let mut met = 0;
-        for triangle in triangles {
-            for (lane, [t, ..]) in exact_crossings(set, &corners(triangle, sheared)) {
-                met |= u32::from(t > 0.0 && t < t_max[lane]) << lane;
-            }
-        }
-        met
     }
 }
 
-/// The sheared corners of a triangle.
+/// Lanes whose ray meets something.
 #[inline(always)]
-fn corners<F: Floats>(&[a, b, c]: &[u16; 3], sheared: &[[F; 3]]) -> [[F; 3]; 3] {
-    [
-        sheared[usize::from(a)],
-        sheared[usize::from(b)],
-        sheared[usize::from(c)],
-    ]
+fn occluded_of_group<F: Floats>(
+    set: F::Set,
+    quads: &[Quad],
+    group: &Group<F>,
+    sheared: &[[F; 3]],
+) -> u32 {
+    let zero = F::splat(set, 0.0);
+    let mut met = zero.less(zero);
+    let mut undecided = met;
+    for quad in quads {
+        let found = quad.crossing(set, sheared);
+        undecided = undecided | found.undecided;
+        let t = found.crossing.t;
+        met = met | found.certain & zero.less(t) & t.less(group.t_max);
+    }
+    if undecided.without(met).bits() == 0 {
+        met.bits()
+    } else {
+        met.bits() | occluded_one_by_one(quads, group, sheared)
+    }
+}
+
+#[cold]
+fn occluded_one_by_one<F: Floats>(quads: &[Quad], group: &Group<F>, sheared: &[[F; 3]]) -> u32 {
+    let t_max = column(group.t_max);
+    let mut met = 0;
+    for triangle in quads.iter().flat_map(Quad::triangles) {
+        for (lane, [t, ..]) in crossings(triangle, sheared) {
+            met |= u32::from(t > 0.0 && t < t_max[lane]) << lane;
+        }
+    }
+    met
+}
+
+/// The triangles (a, b, c) and (a, c, d), or a lone one with d = c, of whose second half no ray is inside.
+#[derive(Copy, Clone)]
+struct Quad {
+    /// Indices of a, b, c and d.
+    corners: [u16; 4],
+    /// Place of the first triangle in [`SmallScene::numbers`]; the second is the next one.
+    place: usize,
+}
+
+/// Triangles by number, in pairs where two that follow each other are the halves of a quadrilateral.
+fn quads(triangles: &[[u16; 3]]) -> Vec<Quad> {
+    let mut quads = Vec::new();
+    let mut place = 0;
+    while let Some(&[a, b, c]) = triangles.get(place) {
+        let second = triangles.get(place + 1).filter(|next| next[..2] == [a, c]);
+        quads.push(Quad {
+            corners: [a, b, c, second.map_or(c, |next| next[2])],
+            place: place + 1,
+        });
+        place += 1 + usize::from(second.is_some());
+    }
+    quads
+}
+
+/// What a quad has to say about a group.
+struct Found<F: Floats> {
+    /// Where the ray passes through exactly one of the triangles, far from its border.
+    certain: F::Mask,
+    /// Where that has to be looked at again: at a border, or if the quadrilateral is folded.
+    undecided: F::Mask,
+    crossing: Intersection<F>,
+    index: F,
+}
+
+impl Quad {
+    #[inline(always)]
+    fn crossing<F: Floats>(&self, set: F::Set, sheared: &[[F; 3]]) -> Found<F> {
+        let [a, b, c, d] = self.corners.map(|corner| sheared[usize::from(corner)]);
+        let first = Edges::new(a, b, c);
+        let second = first.of_neighbour(set, a, c, d);
+        let (in_first, in_second) = (first.certainly_inside(set), second.certainly_inside(set));
+        let edges = Edges::select(in_second, second, first);
+        let depths = [
+            a[2],
+            F::select(in_second, c[2], b[2]),
+            F::select(in_second, d[2], c[2]),
+        ];
+        let [one, next] = [self.place, self.place + 1].map(|place| F::splat(set, place as f32));
+        Found {
+            certain: in_first | in_second,
+            undecided: first.inside(set).without(in_first)
+                | second.inside(set).without(in_second)
+                | in_first & in_second,
+            crossing: edges.intersection(depths),
+            index: F::select(in_second, next, one),
+        }
+    }
+
+    fn triangles(&self) -> [[u16; 3]; 2] {
+        let [a, b, c, d] = self.corners;
+        [[a, b, c], [a, c, d]]
+    }
 }
 
 #[inline(always)]
@@ -416,21 +461,14 @@ fn column<F: Floats>(vector: F) -> Column {
     lanes
 }
 
-/// The exact test in the lanes that `f32` cannot decide, where it finds a crossing.
-fn exact_crossings<F: Floats>(
-    set: F::Set,
-    corners: &[[F; 3]; 3],
+/// Crossings of a triangle, lane by lane.
+fn crossings<F: Floats>(
+    corners: [u16; 3],
+    sheared: &[[F; 3]],
 ) -> impl Iterator<Item = (usize, [f32; 3])> {
-    let edges = Edges::new(corners[0], corners[1], corners[2]);
-    let lanes = edges
-        .inside(set)
-        .without(edges.certainly_inside(set))
-        .bits();
-    let corners = corners.map(|corner| corner.map(column));
-    (0..F::LANES)
-        .filter(move |lane| lanes >> lane & 1 == 1)
-        .filter_map(move |lane| {
-            let [a, b, c] = corners.map(|corner| corner.map(|column| column[lane]));
-            Some((lane, exact_intersection(a, b, c)?))
-        })
+    let corners = corners.map(|corner| sheared[usize::from(corner)].map(column));
+    (0..F::LANES).filter_map(move |lane| {
+        let [a, b, c] = corners.map(|corner| corner.map(|column| column[lane]));
+        Some((lane, intersect_sheared(a, b, c)?))
+    })
 }

@@ -92,6 +92,31 @@ impl<F: Floats> Edges<F> {
         }
     }
 
+    /// Those of the triangle (a, c, d), if these are of (a, b, c): the edge between them is the same number with the other sign.
+    #[inline(always)]
+    pub(crate) fn of_neighbour(
+        &self,
+        set: F::Set,
+        a: Sheared<F>,
+        c: Sheared<F>,
+        d: Sheared<F>,
+    ) -> Self {
+        Self {
+            u: d[0] * c[1] - d[1] * c[0],
+            v: a[0] * d[1] - a[1] * d[0],
+            w: F::splat(set, 0.0) - self.v,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn select(mask: F::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            u: F::select(mask, yes.u, no.u),
+            v: F::select(mask, yes.v, no.v),
+            w: F::select(mask, yes.w, no.w),
+        }
+    }
+
     /// Where the ray passes through the triangle or its border.
     #[inline(always)]
     pub(crate) fn inside(&self, set: F::Set) -> F::Mask {
@@ -172,8 +197,18 @@ pub(crate) fn exact_intersection(
 
 /// The whole test for one triangle, its corners permuted like the shear: `[t, weight 1, weight 2]` for any `t`.
 pub(crate) fn intersect(shear: &Shear<f32>, corners: [[f32; 3]; 3]) -> Option<[f32; 3]> {
-    let set = crate::simd::Scalar;
     let [a, b, c] = corners.map(|corner| shear.apply(corner));
+    intersect_sheared(a, b, c)
+}
+
+/// The same after the shear.
+#[inline(always)]
+pub(crate) fn intersect_sheared(
+    a: Sheared<f32>,
+    b: Sheared<f32>,
+    c: Sheared<f32>,
+) -> Option<[f32; 3]> {
+    let set = crate::simd::Scalar;
     let edges = Edges::new(a, b, c);
     if edges.certainly_inside(set).bits() != 0 {
         let intersection = edges.intersection([a[2], b[2], c[2]]);

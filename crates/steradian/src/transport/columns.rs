@@ -257,15 +257,19 @@ impl Vertices {
         key.resize(count, 0);
         index.resize(count, 0);
         Room {
-            point: [&mut self.x, &mut self.y, &mut self.z].map(|column| &mut column[from..]),
+            point: [&mut self.x, &mut self.y, &mut self.z]
+                .map(|column| &mut column[from..][..more]),
             normal: [&mut self.normal_x, &mut self.normal_y, &mut self.normal_z]
-                .map(|column| &mut column[from..]),
-            clearance: &mut self.clearance[from..],
-            response: self.response.each_mut().map(|column| &mut column[from..]),
-            light: [&mut self.light_u, &mut self.light_v].map(|column| &mut column[from..]),
-            slot: &mut slot[from..],
-            key: &mut key[from..],
-            index: &mut index[from..],
+                .map(|column| &mut column[from..][..more]),
+            clearance: &mut self.clearance[from..][..more],
+            response: self
+                .response
+                .each_mut()
+                .map(|column| &mut column[from..][..more]),
+            light: [&mut self.light_u, &mut self.light_v].map(|column| &mut column[from..][..more]),
+            slot: &mut slot[from..][..more],
+            key: &mut key[from..][..more],
+            index: &mut index[from..][..more],
         }
     }
 
@@ -408,6 +412,8 @@ pub struct Workspace {
     pub(super) hits: HitBatch,
     /// Rows of the flights that met plain triangles.
     pub(super) plain: Vec<u32>,
+    /// Rows of the others.
+    pub(super) others: Vec<u32>,
     pub(super) vertices: Vertices,
     pub(super) mirrors: Vertices,
     /// Direction towards the viewer at each of `mirrors`.

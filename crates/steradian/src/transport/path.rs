@@ -136,19 +136,18 @@ impl Tracer<'_> {
         if !tables.media.is_empty() {
             attenuate(tables, workspace);
         }
-        let mut plain = std::mem::take(&mut workspace.plain);
-        plain.clear();
-        for i in 0..workspace.flights.len() {
+        let mut others = std::mem::take(&mut workspace.others);
+        let primitives = &workspace.hits.primitive[..workspace.flights.len()];
+        tables
+            .plain
+            .part(primitives, &mut workspace.plain, &mut others);
+        for i in others.iter().map(|&row| row as usize) {
             let slot = workspace.flights.identity.slot[i];
             let wavelengths = &workspace.wavelengths[slot as usize];
             if workspace.hits.primitive[i] == MISS {
                 let (flights, gathered) = (&workspace.flights, &mut workspace.gathered);
                 let place = (candidates, &workspace.receiving[slot as usize]);
                 self.escape((flights, i), wavelengths, place, gathered);
-                continue;
-            }
-            if tables.is_plain(workspace.hits.primitive[i]) {
-                plain.push(i as u32);
                 continue;
             }
             let hit = self.met(workspace, i);
@@ -188,14 +187,15 @@ impl Tracer<'_> {
                 workspace.mirrored(i, &hit, &reflectance);
             }
         }
+        workspace.others = others;
         self.set.run(ArrivePlainly {
-            tables,
+            table: &tables.plain,
+            triangles: tables.scene.surfaces().triangles(),
             flights: &workspace.flights,
             hits: &workspace.hits,
-            rows: &plain,
+            rows: &workspace.plain,
             vertices: &mut workspace.vertices,
         });
-        workspace.plain = plain;
     }
 
     /// What flight `i` met, seen from where it left its last vertex.

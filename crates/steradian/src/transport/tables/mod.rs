@@ -12,7 +12,7 @@ use sides::{Tints, emitting};
 
 use super::light_tree::{Receiving, Selection};
 use super::media::Beside;
-use super::plain::plain_parts;
+use super::plain::PlainTriangles;
 use crate::light::{Beam, EnvironmentMap, Kind, Light};
 use crate::material::{ColorLanes, Hue, MaterialId, Opacity, Tint};
 use crate::scene::Scene;
@@ -220,8 +220,8 @@ pub(super) struct Tables<'a> {
     pub lanes: usize,
     /// Side 2·part is the front of a part, 2·part + 1 its back.
     pub sides: Vec<Side>,
-    /// Whether triangles of a part are [plain](super::plain).
-    plain: Vec<bool>,
+    /// The [plain](super::plain) triangles.
+    pub plain: PlainTriangles,
     pub emitters: Vec<Emitter>,
     /// Number of emitters with extent; they come first.
     pub extended: usize,
@@ -294,7 +294,7 @@ impl<'a> Tables<'a> {
         Self {
             scene,
             lanes: scene.lanes().carried(),
-            plain: plain_parts(&sides),
+            plain: PlainTriangles::new(scene.surfaces().triangles(), &sides),
             sides,
             emitters,
             extended,
@@ -320,13 +320,6 @@ impl<'a> Tables<'a> {
     pub fn is_any(&self, part: u32, front: bool) -> bool {
         let side = &self.sides[2 * part as usize + usize::from(!front)];
         matches!(side.model, Model::Any | Model::Pane)
-    }
-
-    /// Whether a primitive is a triangle of a plain part.
-    #[inline(always)]
-    pub fn is_plain(&self, primitive: u32) -> bool {
-        let triangle = self.scene.surfaces().triangles().get(primitive as usize);
-        triangle.is_some_and(|triangle| self.plain[triangle.part as usize])
     }
 
     /// Emitters for the vertices of a path: one chosen among all.
