@@ -7,18 +7,18 @@
 //! Walls, floor and ceiling of a room lie in the faces of the box around it, and no shadow ray within that box can meet them: they are left
 //! out where all rays of a vector begin and end within it.
 
+mod group;
+mod quad;
+
 use crate::batch::{Hit, HitBatch, MISS, RayBatch};
-use crate::geometry::COORDINATE_LIMIT;
 use crate::node::Bounds;
-use crate::prepared_ray::DIRECTION_RANGE;
 use crate::simd::{Floats, Mask, Simd};
-use crate::triangle::{Edges, Intersection, Shear, intersect_sheared};
+use crate::triangle::intersect_sheared;
+use group::Group;
+use quad::{Doubt, Quad, quads};
 
 /// Up to this many triangles, trying all is faster than a tree.
 pub(crate) const MOST_TRIANGLES: usize = 64;
-
-/// 2⁻²¹, against the 2⁻²² that the end of a ray may be off in units of the greatest coordinate.
-const END_ROUNDING: f32 = 1.0 / (1 << 21) as f32;
 
 /// Lanes of the widest vector.
 const MOST_LANES: usize = 16;
@@ -130,21 +130,19 @@ impl SmallScene {
     ) -> Best<F> {
         let zero = F::splat(set, 0.0);
         let mut best = Best::none(set);
-        let mut undecided = zero.less(zero);
+        let mut doubt = Doubt::none(set);
         for quad in &self.quads {
-            let found = quad.crossing(set, sheared);
-            undecided = undecided | found.undecided;
-            let crossing = found.crossing;
-            let on_ray = zero.less(crossing.t) & crossing.t.less_equal(group.t_max);
-            let nearer = found.certain & on_ray & crossing.t.less(best.t);
-            best.t = F::select(nearer, crossing.t, best.t);
+            let found = quad.crossing(set, sheared, &mut doubt);
+            let t = found.crossing.t;
+            let nearer = found.certain & zero.less(t) & t.less(best.t);
+            best.t = F::select(nearer, t, best.t);
             best.index = F::select(nearer, found.index, best.index);
-            best.v = F::select(nearer, crossing.v, best.v);
-            best.w = F::select(nearer, crossing.w, best.w);
-            best.determinant = F::select(nearer, crossing.determinant, best.determinant);
+            best.v = F::select(nearer, found.crossing.v, best.v);
+            best.w = F::select(nearer, found.crossing.w, best.w);
+            best.determinant = F::select(nearer, found.crossing.determinant, best.determinant);
         }
-        if undecided.bits() == 0 {
-            best
+        if doubt.lanes(set) == 0 {
+            best.up_to(set, group.t_max)
         } else {
             self.closest_one_by_one(set, group, sheared)
         }
@@ -165,7 +163,7 @@ impl SmallScene {
             for (lane, crossing) in crossings(corners, sheared) {
                 if crossing[0] > 0.0 && crossing[0] <= t_max[lane] && crossing[0] < t[lane] {
                     [t[lane], v[lane], w[lane]] = crossing;
-                    index[lane] = (place + 1) as f32;
+                    index[lane] = f32::from_bits(place as u32 + 1);
                 }
             }
         }
@@ -189,14 +187,13 @@ fn occluded_of_group<F: Floats>(
 ) -> u32 {
     let zero = F::splat(set, 0.0);
     let mut met = zero.less(zero);
-    let mut undecided = met;
+    let mut doubt = Doubt::none(set);
     for quad in quads {
-        let found = quad.crossing(set, sheared);
-        undecided = undecided | found.undecided;
+        let found = quad.crossing(set, sheared, &mut doubt);
         let t = found.crossing.t;
         met = met | found.certain & zero.less(t) & t.less(group.t_max);
     }
-    if undecided.without(met).bits() == 0 {
+    if doubt.lanes(set) & !met.bits() == 0 {
         met.bits()
     } else {
         met.bits() | occluded_one_by_one(quads, group, sheared)
@@ -215,70 +212,6 @@ fn occluded_one_by_one<F: Floats>(quads: &[Quad], group: &Group<F>, sheared: &[[
     met
 }
 
-/// The triangles (a, b, c) and (a, c, d), or a lone one with d = c, of whose second half no ray is inside.
-#[derive(Copy, Clone)]
-struct Quad {
-    /// Indices of a, b, c and d.
-    corners: [u16; 4],
-    /// Place of the first triangle in [`SmallScene::numbers`]; the second is the next one.
-    place: usize,
-}
-
-/// Triangles by number, in pairs where two that follow each other are the halves of a quadrilateral.
-fn quads(triangles: &[[u16; 3]]) -> Vec<Quad> {
-    let mut quads = Vec::new();
-    let mut place = 0;
-    while let Some(&[a, b, c]) = triangles.get(place) {
-        let second = triangles.get(place + 1).filter(|next| next[..2] == [a, c]);
-        quads.push(Quad {
-            corners: [a, b, c, second.map_or(c, |next| next[2])],
-            place: place + 1,
-        });
-        place += 1 + usize::from(second.is_some());
-    }
-    quads
-}
-
-/// What a quad has to say about a group.
-struct Found<F: Floats> {
-    /// Where the ray passes through exactly one of the triangles, far from its border.
-    certain: F::Mask,
-    /// Where that has to be looked at again: at a border, or if the quadrilateral is folded.
-    undecided: F::Mask,
-    crossing: Intersection<F>,
-    index: F,
-}
-
-impl Quad {
-    #[inline(always)]
-    fn crossing<F: Floats>(&self, set: F::Set, sheared: &[[F; 3]]) -> Found<F> {
-        let [a, b, c, d] = self.corners.map(|corner| sheared[usize::from(corner)]);
-        let first = Edges::new(a, b, c);
-        let second = first.of_neighbour(set, a, c, d);
-        let (in_first, in_second) = (first.certainly_inside(set), second.certainly_inside(set));
-        let edges = Edges::select(in_second, second, first);
-        let depths = [
-            a[2],
-            F::select(in_second, c[2], b[2]),
-            F::select(in_second, d[2], c[2]),
-        ];
-        let [one, next] = [self.place, self.place + 1].map(|place| F::splat(set, place as f32));
-        Found {
-            certain: in_first | in_second,
-            undecided: first.inside(set).without(in_first)
-                | second.inside(set).without(in_second)
-                | in_first & in_second,
-            crossing: edges.intersection(depths),
-            index: F::select(in_second, next, one),
-        }
-    }
-
-    fn triangles(&self) -> [[u16; 3]; 2] {
-        let [a, b, c, d] = self.corners;
-        [[a, b, c], [a, c, d]]
-    }
-}
-
 #[inline(always)]
 fn shear<F: Floats>(set: F::Set, vertices: &[[f32; 3]], group: &Group<F>, sheared: &mut [[F; 3]]) {
     for (&[x, y, z], sheared) in vertices.iter().zip(sheared) {
@@ -287,140 +220,11 @@ fn shear<F: Floats>(set: F::Set, vertices: &[[f32; 3]], group: &Group<F>, sheare
     }
 }
 
-/// As many rays as a vector has lanes.
-struct Group<F: Floats> {
-    valid: F::Mask,
-    origin: [F; 3],
-    direction: [F; 3],
-    axes: Axes<F::Mask>,
-    /// Not a number in the lanes of invalid rays, which no test accepts.
-    shear: Shear<F>,
-    t_max: F,
-}
-
-impl<F: Floats> Group<F> {
-    /// Rays `start .. start + count`; the other lanes hold invalid ones.
-    #[inline(always)]
-    fn load(set: F::Set, rays: &RayBatch, start: usize, count: usize) -> Self {
-        let origin = [
-            load(set, &rays.origin_x, start, count),
-            load(set, &rays.origin_y, start, count),
-            load(set, &rays.origin_z, start, count),
-        ];
-        let direction = [
-            load(set, &rays.direction_x, start, count),
-            load(set, &rays.direction_y, start, count),
-            load(set, &rays.direction_z, start, count),
-        ];
-        let t_max: F = load(set, &rays.t_max, start, count);
-        let lengths = [
-            absolute(set, direction[0]),
-            absolute(set, direction[1]),
-            absolute(set, direction[2]),
-        ];
-        let valid = are_valid(set, origin, lengths, t_max);
-        let axes = Axes::of(lengths);
-        let [x, y, z] = axes.permute(origin);
-        let x = F::select(valid, x, F::splat(set, f32::NAN));
-        let y = F::select(valid, y, F::splat(set, f32::NAN));
-        Self {
-            valid,
-            origin,
-            direction,
-            axes,
-            shear: Shear::new(set, [x, y, z], axes.permute(direction)),
-            t_max,
-        }
-    }
-
-    /// Whether all valid rays begin and end within a box: a segment between two points of a convex body meets none of its faces, unless it
-    /// runs along one, which is to see it edge-on.
-    ///
-    /// Ends are off by two roundings of numbers below three times the greatest coordinate along the axis; both count as within if they clear
-    /// the faces by more.
-    #[inline(always)]
-    fn stays_within(&self, set: F::Set, bounds: &Bounds) -> bool {
-        let mut inside = self.valid;
-        for axis in 0..3 {
-            let (lower, upper) = (bounds.lower[axis], bounds.upper[axis]);
-            let margin = F::splat(set, lower.abs().max(upper.abs()) * END_ROUNDING);
-            let (lower, upper) = (F::splat(set, lower), F::splat(set, upper));
-            let origin = self.origin[axis];
-            let end = origin + self.direction[axis] * self.t_max;
-            let (lower, upper) = (lower + margin, upper - margin);
-            inside = inside
-                & lower.less_equal(origin.minimum(end))
-                & origin.maximum(end).less_equal(upper);
-        }
-        self.valid.without(inside).bits() == 0
-    }
-}
-
-/// Part of a column, filled up with NaN.
-#[inline(always)]
-fn load<F: Floats>(set: F::Set, column: &[f32], start: usize, count: usize) -> F {
-    let values = &column[start..start + count];
-    if count == F::LANES {
-        return F::load(set, values);
-    }
-    let mut padded = [f32::NAN; MOST_LANES];
-    padded[..count].copy_from_slice(values);
-    F::load(set, &padded)
-}
-
-#[inline(always)]
-fn absolute<F: Floats>(set: F::Set, x: F) -> F {
-    x.maximum(F::splat(set, 0.0) - x)
-}
-
-/// [`Ray`](crate::Ray) says what is valid; all comparisons fail on NaN.
-#[inline(always)]
-fn are_valid<F: Floats>(set: F::Set, [x, y, z]: [F; 3], lengths: [F; 3], t_max: F) -> F::Mask {
-    let limit = F::splat(set, COORDINATE_LIMIT);
-    let near = absolute(set, x).less_equal(limit)
-        & absolute(set, y).less_equal(limit)
-        & absolute(set, z).less_equal(limit);
-    let longest = F::splat(set, *DIRECTION_RANGE.end());
-    let [a, b, c] = lengths;
-    let not_long = a.less_equal(longest) & b.less_equal(longest) & c.less_equal(longest);
-    let not_short = F::splat(set, *DIRECTION_RANGE.start()).less_equal(a.maximum(b).maximum(c));
-    near & not_long & not_short & t_max.less_equal(F::splat(set, f32::INFINITY))
-}
-
-/// Which axis is the main one, lane by lane.
-#[derive(Copy, Clone)]
-struct Axes<M> {
-    is_x: M,
-    /// Where it is not x.
-    is_y: M,
-}
-
-impl<M: Mask> Axes<M> {
-    /// Of directions with these absolute components.
-    #[inline(always)]
-    fn of<F: Floats<Mask = M>>([x, y, z]: [F; 3]) -> Self {
-        Self {
-            is_x: y.less_equal(x) & z.less_equal(x),
-            is_y: z.less_equal(y),
-        }
-    }
-
-    /// Components in the order of the shear, the main one last.
-    #[inline(always)]
-    fn permute<F: Floats<Mask = M>>(&self, [x, y, z]: [F; 3]) -> [F; 3] {
-        [
-            F::select(self.is_x, y, F::select(self.is_y, z, x)),
-            F::select(self.is_x, z, F::select(self.is_y, x, y)),
-            F::select(self.is_x, x, F::select(self.is_y, y, z)),
-        ]
-    }
-}
-
 /// The closest hits of a group.
 #[derive(Copy, Clone)]
 struct Best<F> {
     t: F,
-    /// Place in [`SmallScene::numbers`], a small integer and so exact; 0 for a miss.
+    /// Place in [`SmallScene::numbers`], as bits; 0 for a miss.
     index: F,
     v: F,
     w: F,
@@ -440,6 +244,20 @@ impl<F: Floats> Best<F> {
         }
     }
 
+    /// The hits that are not behind the ends of the rays.
+    #[inline(always)]
+    fn up_to(self, set: F::Set, t_max: F) -> Self {
+        let (none, keeps) = (Self::none(set), self.t.less_equal(t_max));
+        let keep = |found, none| F::select(keeps, found, none);
+        Self {
+            t: keep(self.t, none.t),
+            index: keep(self.index, none.index),
+            v: keep(self.v, none.v),
+            w: keep(self.w, none.w),
+            determinant: keep(self.determinant, none.determinant),
+        }
+    }
+
     #[inline(always)]
     fn write(self, numbers: &[u32], hits: &mut HitBatch, start: usize, count: usize) {
         let end = start + count;
@@ -448,7 +266,7 @@ impl<F: Floats> Best<F> {
         hits.v[start..end].copy_from_slice(&column(self.w / self.determinant)[..count]);
         let places = column(self.index);
         for (primitive, place) in hits.primitive[start..end].iter_mut().zip(places) {
-            *primitive = numbers[place as usize];
+            *primitive = numbers[place.to_bits() as usize];
         }
     }
 }

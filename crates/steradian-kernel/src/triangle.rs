@@ -21,7 +21,7 @@
 use crate::simd::{Floats, Mask};
 
 /// Below this an edge function is recomputed in `f64`: 2⁻⁹⁰.
-const SMALLEST_CERTAIN: f32 = f32::from_bits((127 - 90) << 23);
+pub(crate) const SMALLEST_CERTAIN: f32 = f32::from_bits((127 - 90) << 23);
 
 /// A point after the shear: (x, y) across the ray, z along it in units of the direction.
 pub(crate) type Sheared<F> = [F; 3];
@@ -129,6 +129,13 @@ impl<F: Floats> Edges<F> {
     pub(crate) fn certainly_inside(&self, set: F::Set) -> F::Mask {
         let positive = F::splat(set, SMALLEST_CERTAIN).less(self.smallest());
         positive | self.largest().less(F::splat(set, -SMALLEST_CERTAIN))
+    }
+
+    /// How far inside the triangle the ray passes: negative outside, 0 on the border, and f32 decides where it is above
+    /// [`SMALLEST_CERTAIN`].
+    #[inline(always)]
+    pub(crate) fn margin(&self, set: F::Set) -> F {
+        self.smallest().maximum(F::splat(set, 0.0) - self.largest())
     }
 
     /// `t` and what it was divided by.

@@ -76,6 +76,19 @@ fn batch() -> impl Strategy<Value = RayBatch> {
     })
 }
 
+/// Pairs of triangles with a common edge, most of them folded.
+fn hinges() -> impl Strategy<Value = Geometry> {
+    let corners = [grid_point(), grid_point(), grid_point(), grid_point()];
+    prop::collection::vec(corners, 1..6).prop_map(|hinges| Geometry {
+        positions: hinges.iter().flatten().copied().collect(),
+        triangles: (0..hinges.len() as u32)
+            .map(|k| 4 * k)
+            .flat_map(|a| [[a, a + 1, a + 2], [a, a + 2, a + 3]])
+            .collect(),
+        quadrics: vec![],
+    })
+}
+
 /// The cube from −1 to 1, whose faces are those of its bounds, and a triangle in it.
 fn room() -> Geometry {
     let corner = |k: u8| [0, 1, 2].map(|axis| f32::from(k >> axis & 1) * 2.0 - 1.0);
@@ -115,6 +128,11 @@ fn walls_stop_what_leaves_the_room_and_nothing_else() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn hinges_agree(geometry in hinges(), rays in batch()) {
+        assert_agreement(&geometry, &rays);
+    }
 
     #[test]
     fn few_triangles(geometry in triangles(0..30), rays in batch()) {
