@@ -10,14 +10,15 @@
 //! that no scene has all its variance in what the branches share but one that is seen through a pattern finer than its pixels.
 //!
 //! The mean over the branches is unbiased, and each of them is a path of its own as far as roulette is concerned. Branch j of sample i draws the
-//! numbers of index k·i + j, so that the branches of all samples of a pixel are one net; its numbers for the first light are those of the sample
-//! moved round by half of their range, so that the four branches sample one light each quarter of it.
+//! numbers of index k·i + j, those for its first light too, so that the branches of all samples of a pixel are one net.
 //!
 //! Source: J. Arvo & D. Kirk, *Particle transport and image synthesis* (SIGGRAPH 1990), §4 (splitting).
 
 use super::columns::{Luggage, Vertices, Workspace};
 use super::path::Tracer;
+use super::scatter;
 use super::scattering::Encounter;
+use crate::sampling::block;
 
 /// Paths from what a camera ray meets first.
 ///
@@ -25,8 +26,8 @@ use super::scattering::Encounter;
 /// times with 4 and with 8.
 pub(super) const BRANCHES: u32 = 4;
 
-/// By how much the numbers of a branch for the first light are moved.
-const MOVES: [[f32; 2]; BRANCHES as usize] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
+/// Block of the numbers for the first light, out of the way of the blocks of a path's segments.
+pub(super) const LIGHT_BLOCK: u32 = 1 << 30;
 
 /// What the branches begin with.
 #[derive(Default)]
@@ -47,40 +48,39 @@ impl Stem {
     }
 
     /// Puts it back as a branch begins.
-    fn grow(&self, branch: u32, workspace: &mut Workspace) {
+    fn grow(&self, branch: u32, tracer: &Tracer, workspace: &mut Workspace) {
         for (to, from) in [
             (&mut workspace.vertices, &self.vertices),
             (&mut workspace.mirrors, &self.mirrors),
         ] {
             to.copy_from(from);
-            to.identity
-                .index
-                .iter_mut()
-                .for_each(|index| *index = index_of(*index, branch));
-            let [u, v] = MOVES[branch as usize];
-            to.light_u
-                .iter_mut()
-                .for_each(|number| *number = moved(*number, u));
-            to.light_v
-                .iter_mut()
-                .for_each(|number| *number = moved(*number, v));
+            for index in &mut to.identity.index {
+                *index = index_of(*index, branch);
+            }
+            scatter::fill(tracer, &to.identity, LIGHT_BLOCK, &mut workspace.uniforms);
+            let [u, v, ..] = &mut workspace.uniforms;
+            std::mem::swap(&mut to.light_u, u);
+            std::mem::swap(&mut to.light_v, v);
         }
         for (to, from) in workspace.viewer.iter_mut().zip(&self.viewer) {
             to.clone_from(from);
         }
-        let encounters = self.encounters.iter().map(|encounter| {
-            let (slot, key, index) = encounter.identity;
-            let [u, v] = MOVES[branch as usize];
-            let [light_u, light_v] = encounter.light;
-            Encounter {
-                identity: (slot, key, index_of(index, branch)),
-                light: [moved(light_u, u), moved(light_v, v)],
-                ..encounter.clone()
-            }
-        });
+        let encounters = self.encounters.iter();
+        let encounters = encounters.map(|encounter| of_branch(encounter, branch));
         workspace.encounters.clear();
         workspace.encounters.extend(encounters);
         workspace.luggage.fill(Luggage::NONE);
+    }
+}
+
+fn of_branch(encounter: &Encounter, branch: u32) -> Encounter {
+    let (slot, key, index) = encounter.identity;
+    let index = index_of(index, branch);
+    let [u, v, ..] = block::sample(key, index, LIGHT_BLOCK);
+    Encounter {
+        identity: (slot, key, index),
+        light: [u, v],
+        ..encounter.clone()
     }
 }
 
@@ -99,7 +99,7 @@ impl Tracer<'_> {
         stem.take(workspace);
         scale(&mut workspace.gathered, BRANCHES as f32);
         for branch in 0..BRANCHES {
-            stem.grow(branch, workspace);
+            stem.grow(branch, self, workspace);
             self.reflect(workspace, 1);
             self.follow(workspace, 1, candidates);
         }
@@ -116,30 +116,9 @@ fn index_of(sample: u32, branch: u32) -> u32 {
     sample.wrapping_mul(BRANCHES) + branch
 }
 
-/// A number of [0, 1) moved round by a part of it, exactly.
-fn moved(number: f32, by: f32) -> f32 {
-    let sum = number + by;
-    if sum < 1.0 { sum } else { number - (1.0 - by) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_branches_of_a_light_number_fill_its_quarters() {
-        for steps in [0, 1, (1 << 23) - 1, 1 << 23, (1 << 24) - 1] {
-            let u = steps as f32 / (1 << 24) as f32;
-            let mut quarters = MOVES.map(|[a, b]| {
-                let (a, b) = (moved(u, a), moved(u, b));
-                assert!((0.0..1.0).contains(&a) && (0.0..1.0).contains(&b));
-                (a >= 0.5, b >= 0.5)
-            });
-            quarters.sort_unstable();
-            let all = [(false, false), (false, true), (true, false), (true, true)];
-            assert_eq!(quarters, all);
-        }
-    }
 
     #[test]
     fn branches_share_no_index() {

@@ -1,13 +1,13 @@
 //! Pictures: radiance arriving at a camera, by paths through the film.
 //!
-//! Of the four numbers of block 0 a sample's first two are its place on the film. A camera without a lens lets the first
-//! vertex have the other two for its light; a thin lens takes them for the place on the lens, so that film and lens are
-//! stratified together, and the first vertex draws its numbers from a block of its own.
+//! Of the four numbers of block 0 a sample's first two are its place on the film. A thin lens takes the other two for the place on the
+//! lens, so that film and lens are stratified together, and the first vertex draws its numbers from a block of its own, as it does
+//! where paths [branch](super::branching). Else the first vertex has them for its light.
 
 mod optics;
 
 use self::optics::Optics;
-use super::branching::BRANCHES;
+use super::branching::{BRANCHES, LIGHT_BLOCK};
 use super::channels;
 use super::columns::{BATCH, Flight, Workspace};
 use super::measure::WAVELENGTH_BLOCK;
@@ -20,9 +20,6 @@ use crate::sampling::block;
 use crate::scene::CAMERA_CHANNELS;
 use crate::sensor::Camera;
 use crate::spectrum::WavelengthDensity;
-
-/// Block of the first vertex behind a lens, out of the way of the blocks of a path's segments.
-const LIGHT_BLOCK: u32 = 1 << 30;
 
 /// Samples the pixels of a camera.
 pub(super) struct CameraSampler<'a> {
@@ -67,7 +64,7 @@ impl<'a> CameraSampler<'a> {
                 light: numbers,
             });
         }
-        if self.optics.has_lens() {
+        if self.optics.has_lens() && self.branches() == 1 {
             self.renew_light_numbers(paths);
         }
     }
