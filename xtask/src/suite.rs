@@ -45,6 +45,7 @@ pub fn test(root: &Path) -> Result<(), String> {
     });
     steps.run("generated files", || schema::check(root));
     steps.run("documentation", || docs(root));
+    programs(root, &mut steps);
     advisories(root, &mut steps);
     steps.finish()
 }
@@ -105,10 +106,26 @@ pub fn docs(root: &Path) -> Result<(), String> {
     succeed(cargo(root, &arguments).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
+/// Whether Python can read the programs of the benchmarks, which need other people's programs to run.
+fn programs(root: &Path, steps: &mut Steps) {
+    if is_installed("python3") {
+        steps.run("programs of the benchmarks", || {
+            let arguments = ["-m", "compileall", "-q", "benchmarks"];
+            succeed(Command::new("python3").current_dir(root).args(arguments))
+        });
+    } else {
+        steps.skip("programs of the benchmarks", "python3 is not installed");
+    }
+}
+
+fn is_installed(program: &str) -> bool {
+    let answer = Command::new(program).arg("--version").output();
+    answer.is_ok_and(|output| output.status.success())
+}
+
 /// Known vulnerabilities, where cargo-deny is installed.
 fn advisories(root: &Path, steps: &mut Steps) {
-    let installed = Command::new("cargo-deny").arg("--version").output();
-    if installed.is_ok_and(|output| output.status.success()) {
+    if is_installed("cargo-deny") {
         steps.run("advisories", || {
             succeed(&mut cargo(root, &["deny", "check", "advisories"]))
         });
