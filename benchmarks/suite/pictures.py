@@ -230,7 +230,7 @@ def report(name, scene, picture, peers, truth, samples, round):
     """The figures of one round."""
     width, height = scene.SIZE
     how = f"{width}x{height}, {samples} spp, at most {scene.DEPTH} segments, Gaussian σ=½, 1 thread; Sobol', Mitsuba multijitter, Cycles default"
-    paths = width * height * samples / 1e6
+    millions = width * height * samples / 1e6
     for peer, theirs in peers:
         common = {"round": round, "peer": peer, "how": how}
         goal = GOALS.get(name, 1.0) if "llvm" in peer else 1.0
@@ -242,7 +242,7 @@ def report(name, scene, picture, peers, truth, samples, round):
         )
         if "llvm" in peer:
             measure.figure(
-                f"{scene.NAME}, paths", "Mpaths/CPU s", paths / picture.cpu_seconds, theirs=paths / theirs.cpu_seconds, **common
+                f"{scene.NAME}, samples", "Msamples/CPU s", millions / picture.cpu_seconds, theirs=millions / theirs.cpu_seconds, **common
             )
     if not peers:
         measure.figure(f"{scene.NAME}, 1/(relMSE·CPU s)", "1/s", efficiency(picture, truth), round=round, how=how)
