@@ -31,6 +31,7 @@ pub fn run(root: &Path, words: &[&str]) -> Result<(), String> {
         return Ok(());
     }
     let options = Options::read(words, |name| std::env::var_os(name).map(PathBuf::from))?;
+    numpy(&python(&options))?;
     let common = common(root, &options)?;
     let mut said = Said::default();
     for part in &options.parts {
@@ -45,6 +46,27 @@ pub fn run(root: &Path, words: &[&str]) -> Result<(), String> {
     } else {
         Err(said.failed.join("\n"))
     }
+}
+
+/// The Python that runs all programs.
+fn python(options: &Options) -> PathBuf {
+    let given = options.path("--mitsuba").cloned();
+    given.unwrap_or_else(|| "python3".into())
+}
+
+/// An error that says how to get numpy, which most programs need.
+fn numpy(python: &Path) -> Result<(), String> {
+    let tried = Command::new(python)
+        .args(["-c", "import numpy"])
+        .stderr(Stdio::null())
+        .status();
+    if tried.is_ok_and(|status| status.success()) {
+        return Ok(());
+    }
+    Err(format!(
+        "{} has no numpy: `python3 -m venv venv && venv/bin/pip install numpy mitsuba`, then --mitsuba venv/bin/python",
+        python.display()
+    ))
 }
 
 /// The flags that every program understands.
@@ -75,10 +97,7 @@ fn measure(
     common: &[String],
     said: &mut Said,
 ) -> Result<(), String> {
-    let python = options
-        .path("--mitsuba")
-        .cloned()
-        .unwrap_or_else(|| "python3".into());
+    let python = python(options);
     let mut command = Command::new(&python);
     command.arg(root.join("benchmarks/suite").join(part.program));
     command
