@@ -4,7 +4,7 @@ use std::io::{IsTerminal, stdout};
 use std::path::Path;
 
 use clap::ValueEnum;
-use steradian::measurement::Measurements;
+use steradian::measurement::{Balance, Measurements};
 use steradian_io::report::{Run, csv, json, table};
 
 use crate::output;
@@ -77,9 +77,14 @@ impl Readings {
             Format::Csv => output::write(csv::encode(&run)?.as_bytes(), file)?,
             Format::Parquet => write_parquet(&run, file)?,
         }
-        Ok(Outcome::fine_if(
-            self.measurements.complete() && self.measurements.converged(),
-        ))
+        Ok(Outcome::fine_if(self.is_good()))
+    }
+
+    /// Nothing was left out, every tolerance was met, and every energy balance holds.
+    fn is_good(&self) -> bool {
+        let balances = self.measurements.balances();
+        let found = &self.measurements;
+        found.complete() && found.converged() && balances.iter().all(Balance::holds)
     }
 }
 

@@ -3,6 +3,7 @@
 //! A result keeps the replicate means of every column, so that sums, shares and dimmed groups keep their covariances
 //! and so that shards can be put together bit for bit. Only [`Estimate`]s leave it.
 
+mod balance;
 mod check;
 mod dimming;
 mod exposure;
@@ -13,6 +14,7 @@ mod statistics;
 #[cfg(test)]
 mod synthetic;
 
+pub use balance::Balance;
 pub use check::Contradiction;
 pub use dimming::{Dimming, RelightError, ScheduleError};
 pub use exposure::Exposure;
@@ -44,6 +46,9 @@ pub struct PointRecord {
     pub normal: Option<[f64; 3]>,
     /// What it lies on.
     pub sits_on: Option<SitsOn>,
+    /// What it is about, where that is no point: a light, or a side of a shape.
+    #[serde(default)]
+    pub about: Option<String>,
     /// The part of each column that a closed form gives, with no sampling error.
     pub exact: Vec<f64>,
     /// Columns whose exact part is all there is, so that nothing had to be sampled.
@@ -125,16 +130,31 @@ pub struct Reading {
     pub exposure: Option<Exposure>,
 }
 
+impl Reading {
+    /// Whether it was sampled and no light was found.
+    pub fn is_dark(&self) -> bool {
+        self.estimate.value == 0.0 && self.estimate.std_error.is_infinite()
+    }
+}
+
 impl Measurements {
     /// True when no path class was left out.
     pub fn complete(&self) -> bool {
         self.unsampled.is_empty()
     }
 
-    /// True when every reading met its tolerance.
+    /// True when every reading met its tolerance; accounts of an energy balance in which no light was found count as 0.
     pub fn converged(&self) -> bool {
-        self.iter_readings()
-            .all(|reading| reading.estimate.converged)
+        self.missed() == 0
+    }
+
+    /// Number of readings that did not.
+    pub fn missed(&self) -> usize {
+        let balances = self.balances();
+        let is_missed = |reading: &Reading| {
+            !reading.estimate.converged && (balances.is_empty() || !reading.is_dark())
+        };
+        self.iter_readings().filter(is_missed).count()
     }
 
     /// The readings of every sensor, in order.
@@ -159,7 +179,10 @@ impl Measurements {
     fn reading(&self, sensor: &SensorRecord, point: &PointRecord, quantity: &Readout) -> Reading {
         let samples = point.replicates.as_ref();
         Reading {
-            sensor: sensor.name.clone(),
+            sensor: match &point.about {
+                Some(about) => format!("{}: {about}", sensor.name),
+                None => sensor.name.clone(),
+            },
             index: point.index,
             position: point.position,
             normal: point.normal,
@@ -299,6 +322,7 @@ mod tests {
             position: Some([1.0, 2.0, 3.0]),
             normal: None,
             sits_on: None,
+            about: None,
             exact,
             closed,
             replicates,

@@ -1,6 +1,7 @@
 //! The command line: what it prints, how it ends, and that it gives the same bytes every time.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on says where")]
 
+mod balance;
 mod brdf;
 mod classroom;
 mod course;

@@ -391,6 +391,7 @@ fn place(sensor: &Sensor) -> String {
         SensorKind::Cylindrical(points) => plural(points.len(), "point"),
         SensorKind::Radiance(rays) => plural(rays.len(), "ray"),
         SensorKind::Flux { area, .. } => format!("{} m2", exact(*area)),
+        SensorKind::Balance(accounts) => plural(accounts.len(), "account"),
         SensorKind::Camera(camera) => {
             let [width, height] = camera.resolution;
             let projection = camera.projection().name();

@@ -98,6 +98,7 @@ fn sensor(sensor: &Sensor) -> Value {
         Kind::Cylindrical(points) => ("cylindrical-irradiance", json!({ "points": points.len() })),
         Kind::Radiance(rays) => ("radiance", json!({ "rays": rays.len() })),
         Kind::Flux { area, .. } => ("flux", json!({ "area": area })),
+        Kind::Balance(accounts) => ("balance", json!({ "accounts": accounts.len() })),
         Kind::Camera(camera) => {
             let projection = camera.projection().name();
             let at = json!({ "projection": projection, "resolution": camera.resolution });

@@ -1,5 +1,6 @@
 //! `steradian measure`: what the sensors of a scene read.
 
+mod balance;
 mod relight;
 mod result_file;
 mod solve;
@@ -11,8 +12,8 @@ use clap::Args;
 use steradian::estimation::{Plan, Stopping};
 use steradian::measurement::Dimming;
 use steradian::quantity::Time;
-use steradian::scene::Scene;
 use steradian::scene::description::{Receivers, SceneDescription, SensorDescription, SensorKind};
+use steradian::scene::{Scene, energy_balance};
 use steradian::time::Interval;
 use steradian::transport::{MeasureOptions, measure};
 
@@ -39,6 +40,10 @@ const DEFAULT_REL_ERROR: f64 = 0.01;
 /// The JSON of an earlier run may stand in place of the scene: it is read and printed again, in any format, at any time of the
 /// schedules, with light groups dimmed or solved for, and nothing is traced.
 ///
+/// With --balance fluxes are read instead: of each light in closed form, absorbed by each side of each shape, and of what escapes. Each is
+/// sampled by itself, so that emitted = absorbed + escaped is a test of the scene's physics; the exit status is 1 where it fails.
+/// --rel-error is then also relative to all that is emitted: what nearly nothing absorbs need not be known any better.
+///
 /// Lights given in watts give readings in W/m2, W, W/(m2 sr); lights given in lumens or candela give lx, lm, cd/m2.
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
@@ -52,6 +57,9 @@ pub struct Arguments {
     /// Read irradiance at the points of a CSV file instead of the scene's sensors: columns x,y,z in metres, nx,ny,nz
     #[arg(long, value_name = "FILE", conflicts_with = "sensor")]
     points: Option<PathBuf>,
+    /// Read the energy balance instead: what each light emits, each side of each shape absorbs, and what escapes
+    #[arg(long, conflicts_with_all = ["sensor", "points"])]
+    balance: bool,
     /// How to print [default: by the ending of the output's name, else table]
     #[arg(long, value_enum)]
     format: Option<Format>,
@@ -73,6 +81,7 @@ Examples:
   steradian measure scenes/point-light.toml
   steradian measure scenes/closed-room.toml --rel-error 0.2% --format json -o room.json
   steradian measure scenes/lamps-equal.toml --time 10s --format csv
+  steradian measure scenes/cornell-box.toml --balance                  emitted = absorbed + escaped, within errors
   steradian measure room.json --format csv                             the same readings again, from the file
   steradian measure room.json -o room.parquet                          for pandas, polars, DuckDB
   steradian measure room.json --relight 'lamp=50%,window=off'          with lights dimmed, errors included
@@ -174,10 +183,16 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 /// Readings of a scene.
 fn traced(arguments: &Arguments) -> Result<Readings, Failure> {
     let loaded = load::scene_with(&arguments.scene, |description| {
+        if arguments.balance {
+            description.sensors = energy_balance();
+        }
         add_points(arguments, description)
     })?;
     let scene = &loaded.scene;
-    let options = options(arguments, scene)?;
+    let mut options = options(arguments, scene)?;
+    if arguments.balance {
+        balance::relative_to_emitted(scene, &mut options)?;
+    }
     let schedules = Dimming::new(scene.schedules().to_vec());
     let dimming = arguments.when.dimming(schedules, scene.groups())?;
     let mut watch = Watch::new()?;

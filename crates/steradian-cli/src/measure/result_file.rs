@@ -36,6 +36,7 @@ fn refuse_tracing(arguments: &Arguments) -> Result<(), Failure> {
     let (stop, engine) = (&arguments.stop, &arguments.engine);
     let given = [
         ("--points", arguments.points.is_some()),
+        ("--balance", arguments.balance),
         ("--rel-error", stop.rel_error.is_some()),
         ("--abs-error", stop.abs_error.is_some()),
         ("--time", stop.time.is_some()),

@@ -9,6 +9,9 @@
 //! `statistics` has mean (also by light group), extremes, `uniformity` (U₀ = min/mean) and `diversity` (min/max) of each sensor with several points; those that noise
 //! biases say so. `relit` has the factors of light groups that are not 1; all readings are with them.
 //!
+//! `balance` has the sums of an energy balance, what is missing, and how probably chance alone makes as much missing; its accounts are
+//! readings.
+//!
 //! A run that was asked for an interval states it as `over`, and in each reading as `exposure` what the reading adds up to, by
 //! seconds and, `in_hours`, by hours. `at` is the time that readings belong to; `null` means that all lights give all they can.
 
@@ -17,6 +20,7 @@ use steradian::estimation::{Estimate, Method};
 use steradian::measurement::{Exposure, Extreme, Measurements, Reading, SensorRecord, Statistics};
 use steradian::quantity::Time;
 
+use super::balance;
 use super::error::ReportError;
 use super::run::{Run, SAMPLING_ERROR_ONLY};
 
@@ -41,8 +45,11 @@ fn report(run: &Run<'_>) -> Value {
     let readings: Vec<Value> = readings.map(|found| reading(&found)).collect();
     let grids: Vec<Value> = measurements.sensors.iter().filter_map(grid).collect();
     let found: Vec<Value> = measurements.statistics().iter().map(statistics).collect();
+    let balances = measurements.balances();
+    let balances: Vec<Value> = balances.iter().map(balance::object).collect();
     let mut object = facts(run);
     object.insert("readings".to_owned(), json!(readings));
+    object.insert("balance".to_owned(), json!(balances));
     object.insert("grids".to_owned(), json!(grids));
     object.insert("statistics".to_owned(), json!(found));
     Value::Object(object)

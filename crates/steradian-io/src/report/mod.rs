@@ -4,6 +4,7 @@
 //! one step, so that a run that stops half-way leaves no half-written output. The same result gives the same bytes.
 
 pub mod atomic;
+mod balance;
 pub mod columns;
 pub mod csv;
 pub mod error;

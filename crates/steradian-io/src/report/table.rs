@@ -8,6 +8,7 @@ use steradian::measurement::{Measurements, Reading, SensorRecord, Statistics};
 use steradian::quantity::Time;
 use steradian::time::Interval;
 
+use super::balance;
 use super::columns::Columns;
 use super::numbers::{estimate, exact, significant};
 use super::run::{Run, SAMPLING_ERROR_ONLY};
@@ -20,8 +21,15 @@ pub fn encode(run: &Run<'_>) -> String {
         text.push_str(&run.measurements.scene_name);
         text.push_str("\n\n");
     }
-    text.push_str(&columns(run.measurements, &readings).to_string());
-    text.push('\n');
+    let balances = run.measurements.balances();
+    for balance in &balances {
+        text.push_str(&balance::table(balance, run.measurements.confidence));
+        text.push('\n');
+    }
+    if balances.is_empty() {
+        text.push_str(&columns(run.measurements, &readings).to_string());
+        text.push('\n');
+    }
     let mut statistics = run.measurements.statistics();
     statistics.retain(|found| is_grid(run.measurements, &found.sensor));
     if !statistics.is_empty() {
@@ -172,10 +180,7 @@ fn notes(run: &Run<'_>, readings: &[Reading]) -> Vec<String> {
     notes.extend(dimmed(measurements));
     notes.extend(relit(measurements));
     notes.extend(measurements.sensors.iter().filter_map(grid));
-    let missed = readings
-        .iter()
-        .filter(|reading| !reading.estimate.converged)
-        .count();
+    let missed = measurements.missed();
     if missed > 0 {
         notes.push(format!(
             "Not converged: {missed} of {} readings.",

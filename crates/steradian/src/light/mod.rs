@@ -27,7 +27,7 @@ pub use spot::{Beam, SpotLight};
 use std::sync::Arc;
 
 use crate::geometry::{Direction, Point};
-use crate::quantity::{Intensity, Irradiance, Radiance};
+use crate::quantity::{Area, Flux, Intensity, Irradiance, Radiance};
 use crate::shape::{Form, ShapeId};
 use crate::spectrum::{CurveId, MAX_LANES};
 
@@ -113,6 +113,30 @@ impl Light {
             Kind::Point(_) | Kind::Spot(_) | Kind::Directional { .. } => true,
             Kind::Environment { .. } | Kind::EnvironmentMap { .. } | Kind::Area(_) => false,
             Kind::Luminaire(light) => light.surface().is_none(),
+        }
+    }
+
+    /// Whether its light comes from infinitely far.
+    pub fn is_infinitely_far(&self) -> bool {
+        matches!(
+            self.kind,
+            Kind::Directional { .. } | Kind::Environment { .. } | Kind::EnvironmentMap { .. }
+        )
+    }
+
+    /// Φ of each lane in all directions; `None` if it is infinite or varies over the surface in no closed form.
+    pub fn flux(&self, area: impl Fn(ShapeId) -> Area) -> Option<[Flux; MAX_LANES]> {
+        match &self.kind {
+            Kind::Point(light) => Some(light.flux()),
+            Kind::Spot(light) => Some(light.flux()),
+            Kind::Luminaire(light) => Some(light.flux()),
+            Kind::Area(light) => light
+                .textures
+                .is_empty()
+                .then(|| light.flux(area(light.shape))),
+            Kind::Directional { .. } | Kind::Environment { .. } | Kind::EnvironmentMap { .. } => {
+                None
+            }
         }
     }
 

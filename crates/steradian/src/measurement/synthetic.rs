@@ -26,6 +26,7 @@ impl<'a, const G: usize> Synthetic<'a, G> {
             position: Some([index as f64, 0.0, 0.0]),
             normal: None,
             sits_on: None,
+            about: None,
             exact: truth.to_vec(),
             closed: vec![true; G],
             replicates: None,

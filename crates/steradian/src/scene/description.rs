@@ -19,7 +19,7 @@ use crate::quantity::{
     Amount, Angle, Exitance, Flux, Illuminance, Intensity, Irradiance, Length, Luminance,
     LuminousExitance, LuminousFlux, LuminousIntensity, Radiance,
 };
-pub use crate::sensor::{Bins, Fisheye, FluxOf, Projection, Response};
+pub use crate::sensor::{Bins, Fisheye, FluxOf, Projection, Response, Term};
 pub use crate::spectrum::{Glass, LaneValues, Metal};
 pub use crate::time::Schedule;
 
@@ -497,6 +497,8 @@ pub enum SensorKind {
     },
     /// A picture.
     Camera(CameraDescription),
+    /// A side of the [energy balance](crate::scene::energy_balance).
+    Balance(Term),
 }
 
 impl SensorKind {
@@ -508,6 +510,7 @@ impl SensorKind {
             Self::Radiance { rays } => rays.first().map(|ray| ray.0),
             Self::ScalarIrradiance { points } => points.first().copied(),
             Self::Camera(camera) => Some(camera.position),
+            Self::Balance(_) => None,
         }
     }
 }

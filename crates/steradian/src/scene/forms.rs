@@ -87,10 +87,7 @@ fn add(
 ) {
     let parts: Vec<_> = sides.iter().map(|sides| forms.part(*sides)).collect();
     let parts = shaped.faces.iter().map(|face| parts[*face]).collect();
-    let base = shape
-        .name
-        .clone()
-        .unwrap_or_else(|| format!("{} {index}", shape.geometry.kind()));
+    let base = base_name(shape, index);
     forms.names.push(if shape.repeat.is_some() {
         format!("{base}[{copy}]")
     } else {
@@ -100,6 +97,12 @@ fn add(
         form: shaped.form,
         parts,
     });
+}
+
+/// The name of a shape, or its kind and number.
+pub(super) fn base_name(shape: &ShapeDescription, index: usize) -> String {
+    let own = shape.name.clone();
+    own.unwrap_or_else(|| format!("{} {index}", shape.geometry.kind()))
 }
 
 /// Textures need coordinates, and colours of vertices need a mesh that has them.

@@ -1,6 +1,7 @@
 //! Scenes: from a description to an immutable, validated scene.
 
 mod appearance;
+mod balance;
 mod box_form;
 mod cameras;
 mod channels;
@@ -25,6 +26,7 @@ mod unseen;
 
 use std::sync::Arc;
 
+pub use balance::energy_balance;
 pub use channels::CAMERA_CHANNELS;
 use curves::Curves;
 pub use lone_material::LoneMaterial;

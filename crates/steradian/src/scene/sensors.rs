@@ -188,6 +188,7 @@ impl Context<'_> {
             SensorKind::Radiance { rays } => radiance(rays),
             SensorKind::Flux { surface, of } => self.flux(surface, *of),
             SensorKind::Camera(camera) => camera_of(camera),
+            SensorKind::Balance(term) => self.accounts(*term).map(Kind::Balance),
         }
     }
 
@@ -200,9 +201,8 @@ impl Context<'_> {
             }
             FluxSurface::Virtual(form) => form.area(),
         };
-        if of == FluxOf::Absorbed && matches!(surface, FluxSurface::Virtual(_)) {
-            let message =
-                "a surface that does not block light absorbs nothing: use a shape, or of = \"net\"";
+        if let (FluxOf::Absorbed | FluxOf::Emitted, FluxSurface::Virtual(_)) = (of, &surface) {
+            let message = "a surface that does not block light neither absorbs nor emits: use a shape, or of = \"net\"";
             return Err(("of", message.into()));
         }
         if !f64::is_finite(area) {
@@ -326,9 +326,11 @@ fn quantities(kind: &Kind) -> Vec<Quantity> {
                 FluxOf::Leaving => readout::MEAN_LEAVING,
                 FluxOf::Absorbed => readout::MEAN_ABSORBED,
                 FluxOf::Net => readout::MEAN_NET,
+                FluxOf::Emitted => readout::MEAN_EMITTED,
             };
             vec![readout::FLUX.into(), mean.per(*area)]
         }
+        Kind::Balance(_) => vec![readout::FLUX.into()],
     }
 }
 
@@ -346,7 +348,7 @@ fn positions(kind: &Kind) -> (&'static str, Vec<Point>) {
         }
         Kind::Radiance(rays) => ("rays", rays.iter().map(|ray| ray.0).collect()),
         Kind::Camera(camera) => ("position", vec![camera.position]),
-        Kind::Flux { .. } => ("surface", vec![]),
+        Kind::Flux { .. } | Kind::Balance(_) => ("surface", vec![]),
     }
 }
 

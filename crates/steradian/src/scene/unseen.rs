@@ -155,6 +155,7 @@ fn hulls(scene: &Scene, sensor: &Sensor) -> Vec<Hull> {
             }
         },
         SensorKind::Camera(camera) => vec![lens(camera)],
+        SensorKind::Balance(_) => vec![],
     }
 }
 

@@ -11,10 +11,12 @@
 //!
 //! A sensor of any kind sees every light: lights without extent by the inverse-square law, all others by sampling.
 
+mod balance;
 mod camera;
 mod layout;
 pub(crate) mod readout;
 
+pub use balance::{Account, Entry, Term};
 pub use camera::{Camera, Fisheye, Projection};
 pub use layout::Layout;
 pub(crate) use layout::greatest_spacing;
@@ -72,6 +74,8 @@ pub enum FluxOf {
     Absorbed,
     /// Incident minus leaving.
     Net,
+    /// What the surface gives of its own (shapes only).
+    Emitted,
 }
 
 /// The surface of a flux sensor.
@@ -123,4 +127,6 @@ pub enum Kind {
     },
     /// A picture.
     Camera(Camera),
+    /// A side of the energy balance.
+    Balance(Vec<Account>),
 }

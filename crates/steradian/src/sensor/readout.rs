@@ -98,6 +98,10 @@ pub(crate) const MEAN_LEAVING: Names = Names {
     radiant: ("mean exitance", "W/m2"),
     photometric: ("mean luminous exitance", "lm/m2"),
 };
+pub(crate) const MEAN_EMITTED: Names = Names {
+    radiant: ("mean emitted exitance", "W/m2"),
+    photometric: ("mean emitted luminous exitance", "lm/m2"),
+};
 pub(crate) const MEAN_ABSORBED: Names = Names {
     radiant: ("mean absorbed irradiance", "W/m2"),
     photometric: ("mean absorbed illuminance", "lx"),

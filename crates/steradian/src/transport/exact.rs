@@ -214,7 +214,7 @@ pub(super) fn emitted_flux(
     columns: &mut [f64],
 ) {
     let sign = match of {
-        FluxOf::Leaving => 1.0,
+        FluxOf::Leaving | FluxOf::Emitted => 1.0,
         FluxOf::Net => -1.0,
         FluxOf::Incident | FluxOf::Absorbed => return,
     };

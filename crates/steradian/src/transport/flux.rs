@@ -5,6 +5,7 @@
 //! | incident | 1 | |
 //! | leaving | αρ | 1 |
 //! | absorbed | α(1 − ρ) | |
+//! | emitted | | 1 |
 //! | net = incident − leaving | 1 − αρ | −1 |
 //!
 //! On a surface that does not block light, leaving is what arrives from the other side, and net the difference.
@@ -91,7 +92,7 @@ impl FluxMeter<'_> {
     /// On a surface that does not block light both sides of a net alternate: what passes backwards is counted negative.
     pub fn on_virtual(&self, (_, key, index): (u32, u64, u32)) -> Start {
         let (front, sign) = match self.of {
-            FluxOf::Incident | FluxOf::Absorbed => (self.front, 1.0),
+            FluxOf::Incident | FluxOf::Absorbed | FluxOf::Emitted => (self.front, 1.0),
             FluxOf::Leaving => (!self.front, 1.0),
             FluxOf::Net if hash::mix_64(key ^ u64::from(index)) & 1 == 0 => (true, 2.0),
             FluxOf::Net => (false, -2.0),
@@ -127,6 +128,7 @@ impl FluxMeter<'_> {
             FluxOf::Net => vec![arriving(1.0), all],
             FluxOf::Absorbed if side.transmits => vec![arriving(opacity), reflected, transmitted],
             FluxOf::Absorbed => vec![arriving(opacity), reflected],
+            FluxOf::Emitted => vec![arriving(0.0)],
         };
         let chosen = hash::mix_64(key ^ u64::from(index)) % parts.len() as u64;
         let (front, looks, weight, sign) = parts[chosen as usize];
@@ -175,12 +177,14 @@ impl FluxMeter<'_> {
     ) -> Lanes4 {
         let reflectance = match (self.of, side.model) {
             (FluxOf::Incident, _) => return [1.0; 4],
+            (FluxOf::Emitted, _) => return [0.0; 4],
             (_, Model::Black | Model::Pane | Model::Any) => [0.0; 4],
             _ => tables.lanes_at(&side.reflectance, wavelengths, || drawn.site()),
         };
         let opacity = tables.opacity(side, || drawn.site()).unwrap_or(1.0);
         reflectance.map(|lane| match self.of {
             FluxOf::Incident => 1.0,
+            FluxOf::Emitted => 0.0,
             FluxOf::Leaving => opacity * lane,
             FluxOf::Absorbed => opacity * (1.0 - lane),
             FluxOf::Net => 1.0 - opacity * lane,
@@ -196,7 +200,7 @@ impl FluxMeter<'_> {
         wavelengths: &Wavelengths,
     ) -> Option<Lanes4> {
         let sign = match self.of {
-            FluxOf::Leaving => 1.0,
+            FluxOf::Leaving | FluxOf::Emitted => 1.0,
             FluxOf::Net => -1.0,
             FluxOf::Incident | FluxOf::Absorbed => return None,
         };

@@ -286,6 +286,9 @@ impl<'a> Meters<'a> {
             self.tracer
                 .add(gathered, group, identity.0, |lane| radiance[lane]);
         }
+        if start.weights == [0.0; 4] {
+            return;
+        }
         if let (Looks::AtModel { .. }, Some(part)) = (start.looks, drawn.part) {
             let [a, b, ..] = block::sample(identity.1, identity.2, DIRECTION_BLOCK);
             let light = [u[2], u[3]];

@@ -25,7 +25,7 @@ use super::tables::{Model, Side, Tables};
 use crate::geometry::{Direction, Point};
 use crate::light::Light;
 use crate::scene::Scene;
-use crate::sensor::{Cylinder, FluxOf, FluxSurface, Kind, Receiver, Sensor, SitsOn};
+use crate::sensor::{Cylinder, Kind, Receiver, Sensor, SitsOn};
 use crate::shape::Form;
 
 /// What one stream samples.
@@ -67,6 +67,8 @@ pub(super) struct Prepared<'a> {
     pub position: Option<Point>,
     pub normal: Option<Direction>,
     pub sits_on: Option<SitsOn>,
+    /// What it is about, where that is no point.
+    pub about: Option<String>,
     /// The exact part of each column.
     pub exact: Vec<f64>,
     /// Columns whose exact part is all there is.
@@ -75,6 +77,23 @@ pub(super) struct Prepared<'a> {
     pub meter: Option<Meter<'a>>,
     /// The stream that samples it.
     pub stream: Option<usize>,
+}
+
+impl Prepared<'_> {
+    /// A reading of nowhere in particular, of which nothing is sampled.
+    pub fn closed_form(exact: Vec<f64>, closed: Vec<bool>) -> Self {
+        Self {
+            index: 0,
+            position: None,
+            normal: None,
+            sits_on: None,
+            about: None,
+            exact,
+            closed,
+            meter: None,
+            stream: None,
+        }
+    }
 }
 
 /// Prepares all readings of a sensor.
@@ -102,16 +121,17 @@ pub(super) fn prepare<'a>(
             .collect(),
         Kind::Radiance(rays) => context.radiance(rays),
         Kind::Flux { surface, of, .. } => vec![context.flux(surface, *of)],
+        Kind::Balance(accounts) => context.accounts(accounts),
         Kind::Camera(_) => vec![],
     }
 }
 
-struct Context<'t, 'a> {
+pub(super) struct Context<'t, 'a> {
     tables: &'t Tables<'a>,
-    scene: &'a Scene,
-    max_depth: u32,
+    pub scene: &'a Scene,
+    pub max_depth: u32,
     /// Columns in which no light has any power.
-    dark: Vec<bool>,
+    pub dark: Vec<bool>,
     /// By light and channel, whether it has any power.
     shines: Vec<Vec<bool>>,
     /// By light and channel, whether a surface may reflect it.
@@ -173,7 +193,7 @@ impl<'t, 'a> Context<'t, 'a> {
         self.columns_where(|(light, channel)| self.reflected[light][channel] || !of_emitters[light])
     }
 
-    fn columns(&self) -> usize {
+    pub fn columns(&self) -> usize {
         self.scene.columns()
     }
 
@@ -239,6 +259,7 @@ impl<'t, 'a> Context<'t, 'a> {
             position: Some(position),
             normal,
             sits_on: receiver.sits_on.clone(),
+            about: None,
             meter: self
                 .samples_receiver(receiver, known, &closed)
                 .then_some(Meter::Irradiance { place, known }),
@@ -262,6 +283,7 @@ impl<'t, 'a> Context<'t, 'a> {
             position: Some(point),
             normal: None,
             sits_on: None,
+            about: None,
             meter: self
                 .samples_points(&closed)
                 .then_some(Meter::Scalar { place, known }),
@@ -281,6 +303,7 @@ impl<'t, 'a> Context<'t, 'a> {
             position: Some(cylinder.position),
             normal: Some(cylinder.facing.unwrap_or(cylinder.axis)),
             sits_on: None,
+            about: None,
             meter: self
                 .samples_points(&closed)
                 .then_some(Meter::Cylinder(meter)),
@@ -313,6 +336,7 @@ impl<'t, 'a> Context<'t, 'a> {
                 position: Some(*origin),
                 normal: Some(*direction),
                 sits_on: None,
+                about: None,
                 exact,
                 closed: self.dark.clone(),
                 meter,
@@ -348,51 +372,6 @@ impl<'t, 'a> Context<'t, 'a> {
         exact::emission(self.scene, hit.side, -looks, exact);
         let reflects = side.model != Model::Black && self.max_depth >= 2;
         reflects.then(|| Meter::Surface(Encounter::seen(&hit, self.tables.site(&hit))))
-    }
-
-    fn flux(&self, surface: &'a FluxSurface, of: FluxOf) -> Prepared<'a> {
-        let mut exact = vec![0.0; self.columns()];
-        let mut forms = Vec::new();
-        let mut area = 0.0;
-        let mut add = |form: &'a Form, parts| {
-            area += form.sampling_area();
-            forms.push((form, parts, area));
-        };
-        let front = match surface {
-            FluxSurface::Virtual(form) => {
-                add(form, None);
-                true
-            }
-            FluxSurface::Shapes { shapes, front } => {
-                for id in shapes {
-                    let placed = self.scene.surfaces().shape(*id);
-                    let first = self.scene.surfaces().first_primitive(*id);
-                    add(&placed.form, Some((&placed.parts[..], first)));
-                    exact::emitted_flux(self.scene, placed, *front, of, &mut exact);
-                }
-                *front
-            }
-        };
-        let forms = forms
-            .into_iter()
-            .map(|(form, parts, sum)| (form, parts, sum / area))
-            .collect();
-        let meter = (self.max_depth >= 1).then_some(Meter::Flux(FluxMeter {
-            forms,
-            area,
-            front,
-            of,
-        }));
-        Prepared {
-            index: 0,
-            position: None,
-            normal: None,
-            sits_on: None,
-            exact,
-            closed: self.dark.clone(),
-            meter,
-            stream: None,
-        }
     }
 }
 

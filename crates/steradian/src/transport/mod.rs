@@ -13,6 +13,7 @@ mod columns;
 mod cylinder;
 mod exact;
 mod flux;
+mod fluxes;
 mod interaction;
 mod light_tree;
 mod measure;

@@ -355,6 +355,7 @@ fn point(reading: Prepared, replicates: &[Replicates]) -> PointRecord {
         position: reading.position.map(|point| point.to_array()),
         normal: reading.normal.map(|normal| normal.to_array()),
         sits_on: reading.sits_on,
+        about: reading.about,
         exact: reading.exact,
         closed: reading.closed,
         replicates: reading.stream.map(|stream| replicates[stream].clone()),

@@ -464,7 +464,12 @@ fn sensors_on_shapes_that_are_not_there() {
             of: FluxOf::Absorbed,
         },
     );
-    one_problem(&description, Part::Sensor(1), Some("of"), "absorbs nothing");
+    one_problem(
+        &description,
+        Part::Sensor(1),
+        Some("of"),
+        "neither absorbs nor emits",
+    );
 }
 
 #[test]
@@ -823,5 +828,30 @@ fn everything_is_told_at_once_and_nothing_twice() {
             part,
             key: Some(key)
         })
+    );
+}
+
+/// Three sensors without a place of their own; what has no account is told.
+#[test]
+fn what_has_no_energy_balance_says_so() {
+    let mut description = valid();
+    description.sensors = energy_balance();
+    assert!(Scene::new(&description).is_ok());
+    let glass = &mut description.materials[0];
+    glass.media.inside = Some(LaneValues::Uniform(1.0));
+    one_problem(
+        &description,
+        Part::Sensor(1),
+        Some("kind"),
+        "leave its absorption out",
+    );
+    description.materials[0].media.inside = None;
+    let ground = GeometryDescription::Ground { height: -1.0 };
+    description.shapes.push(shape(ground, None));
+    one_problem(
+        &description,
+        Part::Sensor(1),
+        Some("kind"),
+        "absorbs without end",
     );
 }
