@@ -1,4 +1,4 @@
-//! Which emitter a place samples: by power where there are few, by what it may bring to the place where there are many.
+//! Which emitter a place samples: one of several by what it may bring to the place.
 
 use super::columns::Place;
 use super::light_tree::Receiving;
@@ -16,6 +16,15 @@ pub(super) struct Sampled {
 }
 
 impl Sampled {
+    /// An emitter that is sampled at every place.
+    pub const fn each(number: usize) -> Self {
+        Self {
+            number,
+            triangle: None,
+            rate: 1.0,
+        }
+    }
+
     /// A direction towards it.
     pub fn towards(&self, tables: &Tables, place: &Place, u: [f32; 2]) -> Option<Towards> {
         let emitter = &tables.emitters[self.number];
@@ -26,7 +35,7 @@ impl Sampled {
     }
 }
 
-/// One of the candidates by power or by importance, and the number that is left to use; none where none may contribute.
+/// One of the candidates by importance, and the number that is left to use; none where none may contribute. Where there is no choice, the first.
 ///
 /// The first number is that of one of so many strata. The second one serves to refine it, as its 24 bits do not part many lights and then
 /// the points of one.
@@ -37,7 +46,7 @@ pub(super) fn choose(
     at: impl FnOnce() -> Receiving,
 ) -> Option<(Sampled, f32)> {
     let Choice::ByImportance { samples } = candidates.choice else {
-        return Some(by_power(tables, candidates, u));
+        return Some((Sampled::each(0), u));
     };
     let fine = f64::from(hash::mix_32(v.to_bits())) * 0.5_f64.powi(56);
     let u = (f64::from(stratum) + f64::from(u) + fine) / f64::from(strata);
@@ -48,29 +57,4 @@ pub(super) fn choose(
         rate: samples as f32 * chosen.probability,
     };
     Some((sampled, chosen.u))
-}
-
-/// One of the candidates by power.
-pub(super) fn by_power(tables: &Tables, candidates: Candidates, u: f32) -> (Sampled, f32) {
-    let count = candidates.count;
-    let sampled = |number| Sampled {
-        number,
-        triangle: None,
-        rate: tables.rate_by_power(candidates, number),
-    };
-    if count == 1 {
-        return (sampled(0), u);
-    }
-    let u = u * tables.cumulative[count - 1];
-    let index = tables
-        .cumulative
-        .partition_point(|sum| *sum <= u)
-        .min(count - 1);
-    let before = if index == 0 {
-        0.0
-    } else {
-        tables.cumulative[index - 1]
-    };
-    let rest = (u - before) / tables.emitters[index].probability;
-    (sampled(index), rest.clamp(0.0, 1.0 - 0.5 * f32::EPSILON))
 }

@@ -17,7 +17,7 @@ use glam::Vec3;
 use steradian_kernel::Work;
 
 use super::aim::{Aim, is_aimed_at};
-use super::choice::{Sampled, by_power, choose};
+use super::choice::{Sampled, choose};
 use super::columns::{BATCH, Place, Shadows, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::Hit;
@@ -50,13 +50,8 @@ impl NextEvent<'_> {
         if let Choice::ByImportance { .. } = self.candidates.choice {
             let places = (&workspace.known[..], &mut workspace.receiving[..]);
             self.sample_chosen(vertices, places, numbers, (0, 1), shadows);
-        } else if self.candidates.count == 1 {
-            self.sample_all(0, (vertices, &workspace.known), numbers, shadows);
         } else {
-            for i in 0..count {
-                let (sampled, u) = by_power(self.tracer.tables, self.candidates, numbers[0][i]);
-                self.sample(i, sampled, [u, numbers[1][i]], vertices, shadows);
-            }
+            self.sample_all(0, (vertices, &workspace.known), numbers, shadows);
         }
         self.settle(workspace);
     }
@@ -129,12 +124,7 @@ impl NextEvent<'_> {
         shadows: &mut Shadows,
     ) {
         let tables = self.tracer.tables;
-        let rate = tables.rate_by_power(self.candidates, number);
-        let sampled = Sampled {
-            number,
-            triangle: None,
-            rate,
-        };
+        let sampled = Sampled::each(number);
         if self.candidates.receiver != Receiver::Surface {
             let mut aimed = Aimed::at(self, sampled);
             for i in 0..vertices.len() {
@@ -165,7 +155,7 @@ impl NextEvent<'_> {
                 normal,
                 area,
                 two_sided,
-                probability: rate,
+                probability: sampled.rate,
             };
             self.tracer.set.run(SamplePanel {
                 panel,

@@ -66,6 +66,11 @@ impl Selection {
         }
     }
 
+    /// Whether there is more than one emitter or triangle.
+    pub fn has_choice(&self) -> bool {
+        self.leaves.len() + self.beside.len() > 1
+    }
+
     /// An emitter by its importance at a place, if one may contribute there.
     pub fn choose(&self, at: &Receiving, u: f64) -> Option<Chosen> {
         let share = self.share_beside();

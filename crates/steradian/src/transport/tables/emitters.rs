@@ -1,4 +1,4 @@
-//! Emitters: the lights that next-event estimation samples, and how likely each is chosen by power.
+//! Emitters: the lights that next-event estimation samples, and their shares of the power.
 
 use std::sync::Arc;
 
@@ -145,12 +145,8 @@ pub(super) fn strengths(scene: &Scene, emitters: &[Emitter], tints: &[Tint]) -> 
     emitters.iter().map(strength).collect()
 }
 
-/// Sets each emitter's probability in proportion to its power; returns the cumulative ones.
-pub(super) fn choose_by_power(
-    scene: &Scene,
-    emitters: &mut [Emitter],
-    strengths: &[f64],
-) -> Vec<f32> {
+/// Sets each emitter's probability in proportion to its power.
+pub(super) fn weigh_by_power(scene: &Scene, emitters: &mut [Emitter], strengths: &[f64]) {
     let extent = scene
         .surfaces()
         .bounds()
@@ -160,9 +156,8 @@ pub(super) fn choose_by_power(
         .map(|(emitter, strength)| strength * emitter.power_factor(scene, extent))
         .collect();
     let total: f64 = powers.iter().sum();
-    let mut sum = 0.0;
     let count = emitters.len() as f64;
-    let step = |(emitter, power): (&mut Emitter, f64)| {
+    for (emitter, power) in emitters.iter_mut().zip(powers) {
         // A light of no luminance in the mean still has lanes: a floor keeps every light possible.
         let probability = if total > 0.0 {
             0.9 * power / total + 0.1 / count
@@ -170,10 +165,7 @@ pub(super) fn choose_by_power(
             1.0 / count
         };
         emitter.probability = probability as f32;
-        sum += probability;
-        sum as f32
-    };
-    emitters.iter_mut().zip(powers).map(step).collect()
+    }
 }
 
 impl Emitter {

@@ -6,7 +6,7 @@ mod sides;
 
 use std::sync::Arc;
 
-use emitters::{choose_by_power, emitters, strengths};
+use emitters::{emitters, strengths, weigh_by_power};
 pub(super) use outlines::{Facet, Outline, circumscribed};
 use sides::{Tints, emitting};
 
@@ -225,8 +225,6 @@ pub(super) struct Tables<'a> {
     pub emitters: Vec<Emitter>,
     /// Number of emitters with extent; they come first.
     pub extended: usize,
-    /// Cumulative probability of the emitters.
-    pub cumulative: Vec<f32>,
     /// How one of many is chosen: of all emitters, and of those with extent.
     selections: [Option<Selection>; 2],
     /// What comes from everywhere.
@@ -259,12 +257,12 @@ impl<'a> Tables<'a> {
         let extended = emitters.iter().filter(|emitter| !emitter.shape.is_delta());
         let extended = extended.count();
         let strengths = strengths(scene, &emitters, &tints.tints);
-        let cumulative = choose_by_power(scene, &mut emitters, &strengths);
+        weigh_by_power(scene, &mut emitters, &strengths);
         let select = |count: usize| Selection::new(scene, &emitters[..count], &strengths[..count]);
         let (all, deltas) = (emitters.len(), emitters.len() - extended);
         let sums_some = (1..=SUMMED_LIGHTS).contains(&deltas);
         let selections = [
-            (all > ALL_LIGHTS).then(|| select(all)),
+            Some(select(all)).filter(Selection::has_choice),
             (sums_some && extended > ALL_LIGHTS).then(|| select(extended)),
         ];
         let sides = scene.parts().iter().flat_map(|part| {
@@ -298,7 +296,6 @@ impl<'a> Tables<'a> {
             sides,
             emitters,
             extended,
-            cumulative,
             selections,
             environment,
             responses: scene.lanes().responses().iter().filter_map(bake).collect(),
@@ -327,8 +324,8 @@ impl<'a> Tables<'a> {
         let count = self.emitters.len();
         Candidates {
             count,
-            choice: if count <= ALL_LIGHTS {
-                Choice::ByPower
+            choice: if self.selections[0].is_none() {
+                Choice::Each
             } else {
                 Choice::ByImportance { samples: 1 }
             },
@@ -376,24 +373,13 @@ impl<'a> Tables<'a> {
         at: impl FnOnce() -> Receiving,
     ) -> f32 {
         let Choice::ByImportance { samples } = candidates.choice else {
-            return self.rate_by_power(candidates, emitter);
+            return 1.0;
         };
         let selection = self.selection(candidates);
         selection.map_or(0.0, |selection| {
             let triangle = primitive - self.emitters[emitter].shape.first_triangle();
             samples as f32 * selection.probability(&at(), emitter, triangle)
         })
-    }
-
-    /// The same of candidates that are sampled alike everywhere.
-    #[inline(always)]
-    pub fn rate_by_power(&self, candidates: Candidates, emitter: usize) -> f32 {
-        match candidates.choice {
-            Choice::ByPower => {
-                self.emitters[emitter].probability / self.cumulative[candidates.count - 1]
-            }
-            Choice::Each | Choice::ByImportance { .. } => 1.0,
-        }
     }
 }
 
@@ -410,8 +396,6 @@ pub(super) struct Candidates {
 pub(super) enum Choice {
     /// Each of them.
     Each,
-    /// One, by power.
-    ByPower,
     /// So many, by what they may send to the place.
     ByImportance { samples: u32 },
 }
