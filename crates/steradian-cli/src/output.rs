@@ -1,11 +1,11 @@
 //! Where results go.
 
 use std::ffi::OsStr;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
-use steradian_io::report::write_atomically;
+use steradian_io::report::{AtomicFile, ReportError, write_atomically};
 
 use crate::status::Failure;
 
@@ -27,6 +27,27 @@ pub fn write(bytes: &[u8], file: Option<&Path>) -> Result<(), Failure> {
         return Ok(stdout.flush()?);
     };
     Ok(write_atomically(path, bytes)?)
+}
+
+/// Lets `encode` write to the file, whole or not at all, or to standard output if there is none, piece by piece.
+pub fn stream(
+    file: Option<&Path>,
+    encode: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    let Some(path) = file else {
+        let mut stdout = BufWriter::new(io::stdout().lock());
+        encode(&mut stdout)?;
+        return Ok(stdout.flush()?);
+    };
+    let mut file = AtomicFile::create(path)?;
+    let mut buffer = BufWriter::new(file.sink());
+    let written = encode(&mut buffer).and_then(|()| buffer.flush());
+    drop(buffer);
+    written.map_err(|source| ReportError::Write {
+        path: path.to_owned(),
+        source,
+    })?;
+    Ok(file.finish()?)
 }
 
 /// Prints to standard output.

@@ -73,8 +73,8 @@ impl Readings {
         let run = self.as_run();
         match format {
             Format::Table => output::write(table::encode(&run).as_bytes(), file)?,
-            Format::Json => output::write(json::encode(&run)?.as_bytes(), file)?,
-            Format::Csv => output::write(csv::encode(&run)?.as_bytes(), file)?,
+            Format::Json => output::stream(file, |out| json::write(&run, out))?,
+            Format::Csv => output::stream(file, |out| csv::write(&run, out))?,
             Format::Parquet => write_parquet(&run, file)?,
         }
         Ok(Outcome::fine_if(self.is_good()))

@@ -1,24 +1,35 @@
 //! Readings as CSV (RFC 4180) with [fixed columns](super::rows); what a reading does not have is empty.
 
+use std::io::{self, Write};
+
 use super::error::ReportError;
 pub use super::rows::COLUMNS;
 use super::rows::{Row, rows};
 use super::run::Run;
 
 /// The readings, a heading first. Numbers read back to the same bits.
+///
+/// # Errors
+/// If they cannot be text.
 pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
-    let failed = |error: csv::Error| ReportError::Encoding(error.to_string());
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(COLUMNS).map_err(failed)?;
+    let mut bytes = Vec::new();
+    write(run, &mut bytes).map_err(|error| ReportError::Encoding(error.to_string()))?;
+    String::from_utf8(bytes).map_err(|error| ReportError::Encoding(error.to_string()))
+}
+
+/// Writes the same reading by reading: it is never held as a whole.
+///
+/// # Errors
+/// If `out` refuses.
+pub fn write(run: &Run<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(COLUMNS)?;
     for reading in run.measurements.iter_readings() {
         for row in rows(&reading) {
-            writer.write_record(record(&row)).map_err(failed)?;
+            writer.write_record(record(&row))?;
         }
     }
-    let bytes = writer
-        .into_inner()
-        .map_err(|error| ReportError::Encoding(error.to_string()))?;
-    String::from_utf8(bytes).map_err(|error| ReportError::Encoding(error.to_string()))
+    writer.flush()
 }
 
 fn record(row: &Row<'_>) -> [String; COLUMNS.len()] {

@@ -15,6 +15,8 @@
 //! A run that was asked for an interval states it as `over`, and in each reading as `exposure` what the reading adds up to, by
 //! seconds and, `in_hours`, by hours. `at` is the time that readings belong to; `null` means that all lights give all they can.
 
+use std::io::{self, Write};
+
 use serde_json::{Map, Value, json};
 use steradian::estimation::{Estimate, Method};
 use steradian::measurement::{Exposure, Extreme, Measurements, Reading, SensorRecord, Statistics};
@@ -32,27 +34,51 @@ pub const SCHEMA: &str = "steradian.result/1";
 /// # Errors
 /// If a number of the measurements cannot be written.
 pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
-    let stored = serde_json::to_string(run.measurements)
-        .map_err(|error| ReportError::Encoding(error.to_string()))?;
-    let report = format!("{:#}", report(run));
-    let open = report.strip_suffix("\n}").unwrap_or(&report);
-    Ok(format!("{open},\n  \"stored\": {stored}\n}}\n"))
+    let mut bytes = Vec::new();
+    write(run, &mut bytes).map_err(|error| ReportError::Encoding(error.to_string()))?;
+    String::from_utf8(bytes).map_err(|error| ReportError::Encoding(error.to_string()))
 }
 
-fn report(run: &Run<'_>) -> Value {
-    let measurements = run.measurements;
-    let readings = measurements.iter_readings();
-    let readings: Vec<Value> = readings.map(|found| reading(&found)).collect();
-    let grids: Vec<Value> = measurements.sensors.iter().filter_map(grid).collect();
-    let found: Vec<Value> = measurements.statistics().iter().map(statistics).collect();
-    let balances = measurements.balances();
-    let balances: Vec<Value> = balances.iter().map(balance::object).collect();
-    let mut object = facts(run);
-    object.insert("readings".to_owned(), json!(readings));
-    object.insert("balance".to_owned(), json!(balances));
-    object.insert("grids".to_owned(), json!(grids));
-    object.insert("statistics".to_owned(), json!(found));
-    Value::Object(object)
+/// Writes the same reading by reading: it is never held as a whole.
+///
+/// # Errors
+/// If a number of the measurements cannot be written, or `out` refuses.
+pub fn write(run: &Run<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let found = run.measurements;
+    write!(out, "{{")?;
+    for (key, fact) in facts(run) {
+        write!(out, "\n  \"{key}\": {},", indented(&fact, "  "))?;
+    }
+    write_list(
+        out,
+        "readings",
+        found.iter_readings().map(|one| reading(&one)),
+    )?;
+    write_list(out, "balance", found.balances().iter().map(balance::object))?;
+    write_list(out, "grids", found.sensors.iter().filter_map(grid))?;
+    write_list(out, "statistics", found.statistics().iter().map(statistics))?;
+    write!(out, "\n  \"stored\": ")?;
+    serde_json::to_writer(&mut *out, found)?;
+    writeln!(out, "\n}}")
+}
+
+fn write_list(
+    out: &mut dyn Write,
+    key: &str,
+    values: impl Iterator<Item = Value>,
+) -> io::Result<()> {
+    write!(out, "\n  \"{key}\": [")?;
+    let (mut before, mut after) = ("", "");
+    for value in values {
+        write!(out, "{before}\n    {}", indented(&value, "    "))?;
+        (before, after) = (",", "\n  ");
+    }
+    write!(out, "{after}],")
+}
+
+/// On lines of which all but the first are moved to the right.
+fn indented(value: &Value, by: &str) -> String {
+    format!("{value:#}").replace('\n', &format!("\n{by}"))
 }
 
 /// What belongs to the run as a whole.
@@ -203,6 +229,17 @@ mod tests {
 
     fn object() -> Value {
         serde_json::from_str(&encode(&run(&measurements())).unwrap()).unwrap()
+    }
+
+    /// Written piece by piece, it looks as if it had been written as a whole.
+    #[test]
+    fn pieces_lie_as_a_whole_would() {
+        let text = encode(&run(&measurements())).unwrap();
+        let mut whole: Value = serde_json::from_str(&text).unwrap();
+        let stored = whole.as_object_mut().unwrap().remove("stored").unwrap();
+        let open = format!("{whole:#}");
+        let open = open.strip_suffix("\n}").unwrap();
+        assert_eq!(text, format!("{open},\n  \"stored\": {stored}\n}}\n"));
     }
 
     #[test]
