@@ -22,7 +22,7 @@ use crate::spectrum::{BakedCurve, Curve, MAX_LANES};
 /// Lanes of the batched loops.
 pub(super) type Lanes4 = [f32; MAX_LANES];
 
-/// Up to this number of emitters meters sample each, and vertices of a path one by power; beyond it all of them choose by importance at
+/// Up to this number of emitters meters sample each; beyond it they choose by importance, as vertices of a path always do, at
 /// the place.
 pub(super) const ALL_LIGHTS: usize = 10;
 
@@ -139,7 +139,7 @@ pub(super) struct Emitter {
     pub two_sided: bool,
     /// Its power has a [factor](crate::light::Light::factor) by direction.
     pub is_directed: bool,
-    /// Probability of this emitter when one is chosen by power.
+    /// Its share of the power, of which a part is dealt out evenly.
     pub probability: f32,
 }
 
