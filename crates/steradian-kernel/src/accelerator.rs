@@ -5,6 +5,7 @@ use crate::collapse::{Item, WideTree};
 use crate::geometry::{BuildError, Geometry, Quadric};
 use crate::instruction_set::{InstructionSet, Kernel};
 use crate::node::{Bounds, Leaf, Node, WIDTH, bounds_of_hittable};
+use crate::packet::Packet;
 use crate::prepared_ray::PreparedRay;
 use crate::region;
 use crate::simd::Simd;
@@ -192,6 +193,28 @@ impl Accelerator {
         closest.into_hit()
     }
 
+    /// Packets where neighbouring rays are alike, other rays one by one.
+    #[inline(always)]
+    fn closest_of_many<S: Simd>(&self, set: S, rays: &RayBatch, hits: &mut HitBatch) {
+        let mut stack = traversal::stack_for(&self.tree);
+        for start in (0..rays.len()).step_by(Packet::<S>::RAYS) {
+            if let Some(mut packet) = Packet::new(set, rays, start, &self.bounds) {
+                packet.try_quadrics(self.target(), &self.unbounded);
+                packet.trace(self.target(), &mut stack);
+                packet.write(hits);
+                continue;
+            }
+            for row in start..rays.len().min(start + Packet::<S>::RAYS) {
+                let ray = rays.ray(row);
+                let mut hit = Hit::NONE;
+                if let Some(prepared) = PreparedRay::new(&ray) {
+                    hit = self.closest_in_tree(set, &ray, &prepared, &mut stack);
+                }
+                hits.set(row, hit);
+            }
+        }
+    }
+
     #[inline(always)]
     fn try_quadrics(&self, indices: impl Iterator<Item = usize>, ray: &Ray, closest: &mut Closest) {
         for index in indices {
@@ -228,15 +251,7 @@ impl Kernel for ClosestHits<'_> {
             hits,
         } = self;
         let Some(small) = &accelerator.small else {
-            let mut stack = traversal::stack_for(&accelerator.tree);
-            for row in 0..rays.len() {
-                let ray = rays.ray(row);
-                let mut hit = Hit::NONE;
-                if let Some(prepared) = PreparedRay::new(&ray) {
-                    hit = accelerator.closest_in_tree(set, &ray, &prepared, &mut stack);
-                }
-                hits.set(row, hit);
-            }
+            accelerator.closest_of_many(set, rays, hits);
             return;
         };
         small.closest(set, rays, hits);

@@ -38,6 +38,7 @@ mod collapse;
 mod geometry;
 mod instruction_set;
 mod node;
+mod packet;
 mod prepared_ray;
 mod quadric;
 mod region;

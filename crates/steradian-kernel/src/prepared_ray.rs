@@ -18,7 +18,7 @@ const ORIGIN_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
 
 /// Components below this part of the largest one are replaced by it, so that their reciprocals stay finite; over any length
 /// inside the scene it changes the position by less than ε²r.
-const FLATTEST: f32 = f32::from_bits((127 - 40) << 23);
+pub(crate) const FLATTEST: f32 = f32::from_bits((127 - 40) << 23);
 
 /// The range of the direction's largest component, 2⁻²⁸ … 2²⁸.
 pub(crate) const DIRECTION_RANGE: std::ops::RangeInclusive<f32> =
@@ -138,6 +138,23 @@ impl<F: Floats> Slabs<F> {
     }
 }
 
+/// The largest coordinate difference between an origin and the scene.
+#[inline(always)]
+pub(crate) fn reach(bounds: &Bounds, origin: [f32; 3]) -> f32 {
+    let mut reach = 0.0_f32;
+    for k in 0..3 {
+        let below = (bounds.lower[k] - origin[k]).abs();
+        reach = reach.max(below).max((bounds.upper[k] - origin[k]).abs());
+    }
+    reach
+}
+
+/// How far an origin is moved along an axis.
+#[inline(always)]
+pub(crate) fn shift(reach: f32, coordinate: f32) -> f32 {
+    PADDING * reach + ORIGIN_ROUNDING * coordinate
+}
+
 /// [`Slabs`] before they are copied to all lanes.
 struct SlabNumbers {
     near_origin: [f32; 3],
@@ -150,13 +167,7 @@ impl SlabNumbers {
     #[inline(always)]
     fn new(ray: &Ray, main: usize, bounds: &Bounds) -> Self {
         let flattest = ray.direction[main].abs() * FLATTEST;
-        let mut reach = 0.0_f32;
-        for k in 0..3 {
-            let below = (bounds.lower[k] - ray.origin[k]).abs();
-            reach = reach
-                .max(below)
-                .max((bounds.upper[k] - ray.origin[k]).abs());
-        }
+        let reach = reach(bounds, ray.origin);
         let mut slabs = Self {
             near_origin: [0.0; 3],
             far_origin: [0.0; 3],
@@ -165,7 +176,7 @@ impl SlabNumbers {
         };
         for k in 0..3 {
             let (origin, direction) = (ray.origin[k], ray.direction[k]);
-            let shift = (PADDING * reach + ORIGIN_ROUNDING * origin.abs()).copysign(direction);
+            let shift = shift(reach, origin.abs()).copysign(direction);
             slabs.near_origin[k] = origin + shift;
             slabs.far_origin[k] = origin - shift;
             slabs.reciprocal[k] = 1.0 / direction.abs().max(flattest).copysign(direction);

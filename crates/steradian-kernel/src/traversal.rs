@@ -111,22 +111,28 @@ pub(crate) fn closest<S: Simd>(
                 }
             }
         }
-        loop {
-            if top == 0 {
-                return;
-            }
-            top -= 1;
-            if entry_of(stack[top]) <= closest.0.t {
-                current = child_of(stack[top]);
-                break;
-            }
+        let Some(next) = pop(stack, &mut top, closest.0.t) else {
+            return;
+        };
+        current = next;
+    }
+}
+
+/// Takes children off the stack down to the first one that begins before or at `last`.
+#[inline(always)]
+pub(crate) fn pop(stack: &[u64], top: &mut usize, last: f32) -> Option<Child> {
+    while *top > 0 {
+        *top -= 1;
+        if entry_of(stack[*top]) <= last {
+            return Some(child_of(stack[*top]));
         }
     }
+    None
 }
 
 /// Puts the children of the set bits on the stack, the nearest on top, and takes that one off again.
 #[inline(always)]
-fn push_sorted<S: Simd>(
+pub(crate) fn push_sorted<S: Simd>(
     set: S,
     tree: &WideTree,
     node: &Node,
@@ -290,7 +296,7 @@ fn offer_lanes<F: Floats>(
 }
 
 #[cold]
-fn exact_in_lane(leaf: &Leaf, lane: usize, prepared: &PreparedRay) -> Option<[f32; 3]> {
+pub(crate) fn exact_in_lane(leaf: &Leaf, lane: usize, prepared: &PreparedRay) -> Option<[f32; 3]> {
     let [a, b, c] = leaf
         .triangle(lane, prepared.axes)
         .map(|corner| prepared.shear.apply(corner));

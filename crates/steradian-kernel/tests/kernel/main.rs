@@ -5,6 +5,7 @@
 mod agreement;
 mod degenerate;
 mod meshes;
+mod packets;
 mod quadrics;
 mod random;
 mod region;
