@@ -75,10 +75,10 @@ struct Looking {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Observer in a scene")]
 pub struct Observer {
-    /// Where the eye of the observer is
+    /// Where the eye of the observer is, with z up as in results
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true, requires = "look")]
     observer: Option<Point>,
-    /// Where the observer looks
+    /// Where the observer looks: a direction, with z up
     #[arg(long, value_name = "DX,DY,DZ", value_parser = values::direction, allow_hyphen_values = true, requires = "observer")]
     look: Option<Direction>,
     /// What is up for the observer

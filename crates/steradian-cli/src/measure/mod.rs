@@ -54,7 +54,7 @@ pub struct Arguments {
     /// Read this sensor only; may be given several times
     #[arg(long, value_name = "NAME")]
     sensor: Vec<String>,
-    /// Read irradiance at the points of a CSV file instead of the scene's sensors: columns x,y,z in metres, nx,ny,nz
+    /// Read irradiance at the points of a CSV file instead of the scene's sensors: columns x,y,z in metres with z up, as in results, and nx,ny,nz
     #[arg(long, value_name = "FILE", conflicts_with = "sensor")]
     points: Option<PathBuf>,
     /// Read the energy balance instead: what each light emits, each side of each shape absorbs, and what escapes
