@@ -7,6 +7,7 @@ Both sides render 256 × 256 pixels with paths of at most 8 segments on one thre
 import pathlib
 import resource
 import subprocess
+import sys
 import tempfile
 import time
 import typing
@@ -14,6 +15,9 @@ import typing
 import drjit
 import mitsuba
 import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from pfm import read_pfm
 
 SIZE = 256
 DEPTH = 8
@@ -75,14 +79,3 @@ class Mitsuba:
 def relative_mse(picture, reference):
     """Mean over pixels and channels of (x - r)² / (r² + 0.01)."""
     return numpy.mean((picture - reference) ** 2 / (reference**2 + 0.01))
-
-
-def read_pfm(path):
-    """A colour PFM: its rows come bottom first; a negative scale says little-endian."""
-    with open(path, "rb") as file:
-        kind, size, scale = file.readline().strip(), file.readline().split(), float(file.readline())
-        if kind != b"PF":
-            raise ValueError(f"{path}: a colour PFM begins with PF, not {kind!r}")
-        width, height = map(int, size)
-        floats = numpy.frombuffer(file.read(), "<f4" if scale < 0 else ">f4")
-    return floats.reshape(height, width, 3)[::-1].astype(float)

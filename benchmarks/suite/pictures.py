@@ -37,6 +37,8 @@ import numpy
 import measure
 
 sys.path.insert(0, str(measure.REPOSITORY / "benchmarks" / "scenes"))
+sys.path.insert(0, str(measure.REPOSITORY / "benchmarks"))
+from pfm import read_pfm
 
 SCENES = ("cornell", "veach_mis", "bathroom", "hall", "glass_ball", "sky_room")
 RUNS = 16
@@ -114,17 +116,6 @@ class Cycles:
     def render(self, samples, seed):
         seconds = self.ask(samples, seed, self.size) - self.start_up
         return Picture(numpy.load(self.output).astype(float), seconds)
-
-
-def read_pfm(path):
-    """A colour PFM: its rows come bottom first; a negative scale says little-endian."""
-    with open(path, "rb") as file:
-        kind, size, scale = file.readline().strip(), file.readline().split(), float(file.readline())
-        if kind != b"PF":
-            raise ValueError(f"{path}: a colour PFM begins with PF, not {kind!r}")
-        width, height = map(int, size)
-        floats = numpy.frombuffer(file.read(), "<f4" if scale < 0 else ">f4")
-    return floats.reshape(height, width, 3)[::-1].astype(float)
 
 
 def inner(picture):

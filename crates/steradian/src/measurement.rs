@@ -150,11 +150,12 @@ impl Measurements {
 
     /// Number of readings that did not.
     pub fn missed(&self) -> usize {
-        let balances = self.balances();
-        let is_missed = |reading: &Reading| {
-            !reading.estimate.converged && (balances.is_empty() || !reading.is_dark())
-        };
-        self.iter_readings().filter(is_missed).count()
+        let is_balance = self.is_balance();
+        let is_met =
+            |reading: &Reading| reading.estimate.converged || (is_balance && reading.is_dark());
+        self.iter_readings()
+            .filter(|reading| !is_met(reading))
+            .count()
     }
 
     /// The readings of every sensor, in order.

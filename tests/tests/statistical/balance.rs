@@ -2,13 +2,15 @@
 //!
 //! A balance that holds is refused with a probability of 1e-3; the seed is fixed.
 
+use std::f64::consts::PI;
+
 use steradian::measurement::Balance;
 use steradian::scene::energy_balance;
 use steradian::sensor::Term;
 use steradian::transport::MeasureOptions;
-use steradian_tests::assert_close;
 use steradian_tests::luminaires::scene_of;
 use steradian_tests::measuring::{measured, samples};
+use steradian_tests::{assert_agrees, assert_close};
 
 fn balance(text: &str, options: &MeasureOptions) -> Balance {
     let mut scene = scene_of(text);
@@ -141,6 +143,21 @@ fn light_from_outside_is_absorbed_or_goes_on() {
     ] {
         assert_holds(light, &balance(&lit(light), &samples(1 << 14)));
     }
+}
+
+/// Φ = 2 π L A of both sides: squares of 0 and of 20 cd/m² in turn are 10 in the mean.
+#[test]
+fn a_pattern_that_emits_is_sampled() {
+    let one_sided = r#"emission = { flux = "10 lm" }"#;
+    let pattern = r#"emission = { radiance = "20 cd/m2", two_sided = true, texture = { checkerboard = [0, 1], scale = [2, 2] } }"#;
+    let lamp = LAMP.replace(one_sided, pattern);
+    assert_ne!(lamp, LAMP);
+    let diffuse = "[materials.it]\nmodel = \"lambertian\"\nreflectance = 0.8\n";
+    let found = balance(&format!("{STUDIO}{lamp}\n{diffuse}"), &samples(1 << 14));
+    let total = found.totals[0].1;
+    assert_agrees("emitted", &total, 2.0 * PI * 10.0 * 0.25, 0.0);
+    assert!(total.std_error < 0.01 * total.value, "{total:?}");
+    assert_holds("pattern", &found);
 }
 
 /// What is left out is missing: of paths that end at their second surface, most of the light.

@@ -11,93 +11,99 @@ pub struct Part {
     pub about: &'static str,
 }
 
-const fn picture(
+const fn suite(
     name: &'static str,
+    program: &'static str,
     arguments: &'static [&'static str],
     about: &'static str,
 ) -> Part {
     Part {
         name,
-        program: "pictures.py",
+        program,
         arguments,
         about,
     }
 }
 
-const fn scaling(
-    name: &'static str,
-    arguments: &'static [&'static str],
-    about: &'static str,
-) -> Part {
-    Part {
-        name,
-        program: "scaling.py",
-        arguments,
-        about,
-    }
-}
+const PICTURES: &str = "pictures.py";
+const SCALING: &str = "scaling.py";
 
 pub const PARTS: [Part; 13] = [
-    Part {
-        name: "kernel",
-        program: "kernel.py",
-        arguments: &[],
-        about: "rays per second, build time, bytes per triangle; Embree",
-    },
-    picture(
+    suite(
+        "kernel",
+        "kernel.py",
+        &[],
+        "rays per second, build time, bytes per triangle; Embree",
+    ),
+    suite(
         "cornell",
+        PICTURES,
         &["--scenes", "cornell"],
         "1/(relMSE·CPU s) of the Cornell box; Mitsuba, Cycles",
     ),
-    picture(
+    suite(
         "veach-mis",
+        PICTURES,
         &["--scenes", "veach_mis"],
         "the same of glossy plates under lamps of many sizes; Mitsuba",
     ),
-    picture(
+    suite(
         "bathroom",
+        PICTURES,
         &["--scenes", "bathroom"],
         "the same of a room of 380 000 triangles, by --bathroom; Mitsuba",
     ),
-    picture(
+    suite(
         "hall",
+        PICTURES,
         &["--scenes", "hall"],
         "the same of a hall under 1 000 panels; Mitsuba",
     ),
-    picture(
+    suite(
         "glass",
+        PICTURES,
         &["--scenes", "glass_ball"],
         "the same of a glass ball and its caustic; Mitsuba",
     ),
-    picture(
+    suite(
         "sky",
+        PICTURES,
         &["--scenes", "sky_room"],
         "the same of a room lit through a window; Mitsuba",
     ),
-    Part {
-        name: "grid",
-        program: "grid.py",
-        arguments: &[],
-        about: "seconds to 1 % of irradiance at 20 x 20 points; Radiance, Mitsuba",
-    },
-    scaling("threads", &["--of", "threads"], "two threads beside one"),
-    scaling(
+    suite(
+        "grid",
+        "grid.py",
+        &[],
+        "seconds to 1 % of irradiance at 20 x 20 points; Radiance, Mitsuba",
+    ),
+    suite(
+        "threads",
+        SCALING,
+        &["--of", "threads"],
+        "two threads beside one",
+    ),
+    suite(
         "triangles",
+        SCALING,
         &["--of", "triangles"],
         "build time and memory from 10 000 to 10 million; Embree",
     ),
-    scaling(
+    suite(
         "lights",
+        SCALING,
         &["--of", "lights"],
         "time to 2 % under 10 to 10 000 lamps",
     ),
-    scaling(
+    suite(
         "sensors",
+        SCALING,
         &["--of", "sensors"],
         "time and memory of 1 000 to 1 million points",
     ),
-    scaling(
+    suite(
         "memory",
+        SCALING,
         &["--of", "memory"],
         "peak memory of a picture; Mitsuba",
     ),

@@ -200,24 +200,23 @@ fn ends<F: Floats>(vector: F) -> [f32; 2] {
 }
 
 #[inline(always)]
-fn smallest<F: Floats>(mut column: Column) -> f32 {
-    let mut half = F::LANES / 2;
-    while half > 0 {
-        for lane in 0..half {
-            column[lane] = Floats::minimum(column[lane], column[lane + half]);
-        }
-        half /= 2;
-    }
-    column[0]
+fn smallest<F: Floats>(column: Column) -> f32 {
+    folded::<F>(column, Floats::minimum)
 }
 
 /// The largest lane of those that vectors of this kind have.
 #[inline(always)]
-pub(super) fn largest<F: Floats>(mut column: Column) -> f32 {
+pub(super) fn largest<F: Floats>(column: Column) -> f32 {
+    folded::<F>(column, Floats::maximum)
+}
+
+/// One lane of all that vectors of this kind have.
+#[inline(always)]
+fn folded<F: Floats>(mut column: Column, pick: impl Fn(f32, f32) -> f32) -> f32 {
     let mut half = F::LANES / 2;
     while half > 0 {
         for lane in 0..half {
-            column[lane] = Floats::maximum(column[lane], column[lane + half]);
+            column[lane] = pick(column[lane], column[lane + half]);
         }
         half /= 2;
     }

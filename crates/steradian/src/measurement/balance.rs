@@ -45,15 +45,23 @@ impl Measurements {
     /// The energy balance in each quantity that was read; none unless [it was asked for](crate::scene::energy_balance).
     #[must_use]
     pub fn balances(&self) -> Vec<Balance> {
-        let [Some(emitted), Some(absorbed), Some(escaped)] = Term::ALL.map(|term| self.side(term))
-        else {
+        let Some(sides) = self.sides() else {
             return vec![];
         };
-        let sides = [emitted, absorbed, escaped];
-        let quantities = emitted.quantities.iter();
+        let quantities = sides[0].quantities.iter();
         quantities
             .map(|quantity| self.balance(sides, quantity))
             .collect()
+    }
+
+    /// Whether an energy balance was asked for.
+    pub(super) fn is_balance(&self) -> bool {
+        self.sides().is_some()
+    }
+
+    fn sides(&self) -> Option<[&SensorRecord; 3]> {
+        let [emitted, absorbed, escaped] = Term::ALL.map(|term| self.side(term));
+        Some([emitted?, absorbed?, escaped?])
     }
 
     fn side(&self, term: Term) -> Option<&SensorRecord> {
@@ -71,22 +79,14 @@ impl Measurements {
                 .map(|point| self.reading(side, point, quantity))
                 .collect()
         };
-        let sum = |points: &[PointRecord], sign: &dyn Fn(usize) -> f64| {
-            let weight = |_, lane: usize| quantity.weights[lane];
-            let signed = |values: &[f64]| {
-                let values = values.iter().enumerate();
-                values.fold(0.0, |sum, (point, value)| sum + sign(point) * value)
-            };
-            let resampled = self.resampled(points, weight);
-            resampled.estimate(self.confidence, signed)
-        };
         let all = sides.map(|side| &side.points[..]).concat();
         let given = sides[0].points.len();
         let sign = |point| if point < given { 1.0 } else { -1.0 };
-        let total = |(term, side): (Term, &SensorRecord)| (term, sum(&side.points, &|_| 1.0));
         let named = || Term::ALL.into_iter().zip(sides);
-        let totals: Vec<_> = named().map(total).collect();
-        let missing = sum(&all, &sign).widened(ROUNDING * totals[0].1.value);
+        let total = |side: &SensorRecord| self.sum(&side.points, quantity, |_| 1.0);
+        let totals: Vec<_> = named().map(|(term, side)| (term, total(side))).collect();
+        let missing = self.sum(&all, quantity, sign);
+        let missing = missing.widened(ROUNDING * totals[0].1.value);
         Balance {
             quantity: quantity.name.clone(),
             unit: quantity.unit.clone(),
@@ -95,6 +95,19 @@ impl Measurements {
             chance: chance(&missing, degrees(&all)),
             missing,
         }
+    }
+
+    fn sum(
+        &self,
+        points: &[PointRecord],
+        quantity: &Readout,
+        sign: impl Fn(usize) -> f64,
+    ) -> Estimate {
+        let resampled = self.resampled(points, |_, lane| quantity.weights[lane]);
+        resampled.estimate(self.confidence, |values| {
+            let values = values.iter().enumerate();
+            values.fold(0.0, |sum, (point, value)| sum + sign(point) * value)
+        })
     }
 }
 

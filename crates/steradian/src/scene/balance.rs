@@ -8,7 +8,7 @@ use super::forms::base_name;
 use super::geometry::virtual_form;
 use super::sensors::Context;
 use crate::geometry::{Bounds, Point, Transform};
-use crate::light::{Kind, Light, LightId};
+use crate::light::{AreaLight, Kind, Light, LightId};
 use crate::sensor::{Account, Entry, FluxSurface, Term};
 use crate::shape::ShapeId;
 
@@ -53,33 +53,20 @@ impl Context<'_> {
 
     /// The lights that are somewhere, copies of a repeat together.
     fn emitted(&self) -> Vec<Account> {
-        let mut accounts: Vec<(String, Vec<LightId>)> = Vec::new();
+        let (mut even, mut varying) = (Vec::<(&str, Vec<LightId>)>::new(), Vec::new());
         let lights = self.lights.lights.iter().enumerate();
-        let mut varying = Vec::new();
         for (number, light) in lights.filter(|(_, light)| !light.is_infinitely_far()) {
-            if let Kind::Area(area) = &light.kind
-                && !area.textures.is_empty()
-            {
-                let sides: &[bool] = if area.two_sided {
-                    &[true, false]
-                } else {
-                    &[true]
-                };
-                varying.extend(
-                    sides
-                        .iter()
-                        .map(|front| side(&light.name, vec![area.shape], *front, FluxOf::Emitted)),
-                );
-                continue;
-            }
-            let name = without_copy(&light.name);
-            match accounts.last_mut() {
-                Some((known, ids)) if known == name => ids.push(LightId(number as u32)),
-                _ => accounts.push((name.into(), vec![LightId(number as u32)])),
+            let (name, id) = (without_copy(&light.name), LightId(number as u32));
+            match (&light.kind, even.last_mut()) {
+                (Kind::Area(area), _) if !area.textures.is_empty() => {
+                    varying.extend(sampled(&light.name, area));
+                }
+                (_, Some((known, ids))) if *known == name => ids.push(id),
+                _ => even.push((name, vec![id])),
             }
         }
-        let exact = accounts.into_iter();
-        let exact = exact.map(|(name, ids)| account(name, Entry::Lights(ids)));
+        let even = even.into_iter();
+        let exact = even.map(|(name, ids)| account(name, Entry::Lights(ids)));
         exact.chain(varying).collect()
     }
 
@@ -137,6 +124,13 @@ fn side(name: &str, shapes: Vec<ShapeId>, front: bool, of: FluxOf) -> Account {
         about,
         Entry::Flux(FluxSurface::Shapes { shapes, front }, of),
     )
+}
+
+/// The sides of a light whose emission varies.
+fn sampled(name: &str, area: &AreaLight) -> impl Iterator<Item = Account> {
+    let fronts = [true, false].into_iter();
+    let emit = fronts.filter(|front| *front || area.two_sided);
+    emit.map(|front| side(name, vec![area.shape], front, FluxOf::Emitted))
 }
 
 /// `lamp` of `lamp[3]`.

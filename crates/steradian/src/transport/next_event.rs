@@ -155,7 +155,6 @@ impl NextEvent<'_> {
                 normal,
                 area,
                 two_sided,
-                probability: sampled.rate,
             };
             self.tracer.set.run(SamplePanel {
                 panel,

@@ -15,7 +15,6 @@ pub(super) struct Panel {
     pub normal: [f32; 3],
     pub area: f32,
     pub two_sided: bool,
-    pub probability: f32,
 }
 
 /// Samples one panel at every vertex: the same numbers as [`NextEvent::sample`], over columns.
@@ -91,7 +90,7 @@ impl Panel {
         } else {
             cos_light
         };
-        let density = squared * self.probability / (self.area * seen);
+        let density = squared / (self.area * seen);
         let ratio = cos_theta * FRAC_1_PI / density;
         let weight = cos_theta / (density * (1.0 + ratio * ratio));
         let usable = seen > 0.0 && cos_theta > 0.0 && density > 0.0 && density < f32::INFINITY;

@@ -194,7 +194,6 @@ fn a_panel_over_columns_is_a_panel() {
         normal,
         area,
         two_sided: false,
-        probability: 1.0,
     };
     for index in 0..64 {
         let [a, b, ..] = block::sample(12, index, 0);
