@@ -1,6 +1,6 @@
 //! The public face: build once, then ask in batches.
 
-use crate::batch::{Hit, HitBatch, Ray, RayBatch};
+use crate::batch::{Hit, HitBatch, MISS, Ray, RayBatch};
 use crate::collapse::{Item, WideTree};
 use crate::geometry::{BuildError, Geometry, Quadric};
 use crate::instruction_set::{InstructionSet, Kernel};
@@ -8,10 +8,11 @@ use crate::node::{Bounds, Leaf, Node, WIDTH, bounds_of_hittable};
 use crate::packet::Packet;
 use crate::prepared_ray::PreparedRay;
 use crate::region;
-use crate::simd::Simd;
+use crate::simd::{Floats, Simd};
 use crate::small_scene::SmallScene;
 use crate::traversal::{self, Closest, Target};
 use crate::triangle;
+use crate::turns::{Question, Turns};
 
 /// With more quadrics than this a tree is faster than trying all.
 const MOST_QUADRICS_WITHOUT_TREE: usize = 4;
@@ -169,6 +170,7 @@ impl Accelerator {
             tree: &self.tree,
             bounds: &self.bounds,
             quadrics: &self.quadrics,
+            unbounded: &self.unbounded,
             first_quadric: self.quadric_number(0),
         }
     }
@@ -193,26 +195,27 @@ impl Accelerator {
         closest.into_hit()
     }
 
-    /// Packets where neighbouring rays are alike, other rays one by one.
+    /// Packets where neighbouring rays are alike, the other rays by turns.
     #[inline(always)]
     fn closest_of_many<S: Simd>(&self, set: S, rays: &RayBatch, hits: &mut HitBatch) {
         let mut stack = traversal::stack_for(&self.tree);
+        let mut single = Vec::new();
         for start in (0..rays.len()).step_by(Packet::<S>::RAYS) {
             if let Some(mut packet) = Packet::new(set, rays, start, &self.bounds) {
-                packet.try_quadrics(self.target(), &self.unbounded);
+                packet.try_quadrics(self.target());
                 packet.trace(self.target(), &mut stack);
                 packet.write(hits);
                 continue;
             }
-            for row in start..rays.len().min(start + Packet::<S>::RAYS) {
-                let ray = rays.ray(row);
-                let mut hit = Hit::NONE;
-                if let Some(prepared) = PreparedRay::new(&ray) {
-                    hit = self.closest_in_tree(set, &ray, &prepared, &mut stack);
-                }
-                hits.set(row, hit);
-            }
+            single.push(start as u32);
         }
+        Turns::trace(set, self.target(), rays, &single, ClosestRows(hits));
+    }
+
+    #[inline(always)]
+    fn occlusion_of_many<S: Simd>(&self, set: S, rays: &RayBatch, occluded: &mut [bool]) {
+        let starts: Vec<u32> = (0..rays.len() as u32).step_by(S::Wide::LANES).collect();
+        Turns::trace(set, self.target(), rays, &starts, OccludedRows(occluded));
     }
 
     #[inline(always)]
@@ -283,14 +286,7 @@ impl Kernel for Occlusions<'_> {
             occluded,
         } = self;
         let Some(small) = &accelerator.small else {
-            let mut stack = traversal::stack_for(&accelerator.tree);
-            for (row, occluded) in occluded.iter_mut().enumerate() {
-                let ray = rays.ray(row);
-                *occluded = false;
-                if let Some(prepared) = PreparedRay::new(&ray) {
-                    *occluded = accelerator.occluded_in_tree(set, &ray, &prepared, &mut stack);
-                }
-            }
+            accelerator.occlusion_of_many(set, rays, occluded);
             return;
         };
         small.occluded(set, rays, occluded);
@@ -321,26 +317,30 @@ impl Accelerator {
     fn occluded_by_quadric(&self, ray: &Ray) -> bool {
         PreparedRay::new(ray).is_some() && self.occluded_by_quadrics(0..self.quadrics.len(), ray)
     }
-
-    #[inline(always)]
-    fn occluded_in_tree<S: Simd>(
-        &self,
-        set: S,
-        ray: &Ray,
-        prepared: &PreparedRay,
-        stack: &mut [u64],
-    ) -> bool {
-        self.occluded_by_quadrics(self.unbounded.iter().map(|&index| index as usize), ray)
-            || (!self.tree.nodes.is_empty()
-                && traversal::occluded(
-                    set,
-                    self.target(),
-                    ray,
-                    prepared,
-                    stack,
-                    ray.t_max.next_down(),
-                ))
-    }
 }
 
 const _: () = assert!(WIDTH == 8, "the vectors of `Simd::Eight` have eight lanes");
+
+/// Where closest hits go.
+struct ClosestRows<'a>(&'a mut HitBatch);
+
+impl Question for ClosestRows<'_> {
+    const ANY: bool = false;
+
+    #[inline(always)]
+    fn settle(&mut self, row: usize, hit: Hit) {
+        self.0.set(row, hit);
+    }
+}
+
+/// Where it goes whether there is any hit.
+struct OccludedRows<'a>(&'a mut [bool]);
+
+impl Question for OccludedRows<'_> {
+    const ANY: bool = true;
+
+    #[inline(always)]
+    fn settle(&mut self, row: usize, hit: Hit) {
+        self.0[row] = hit.primitive != MISS;
+    }
+}

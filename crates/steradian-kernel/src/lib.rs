@@ -42,10 +42,12 @@ mod packet;
 mod prepared_ray;
 mod quadric;
 mod region;
+mod side_by_side;
 mod simd;
 mod small_scene;
 mod traversal;
 mod triangle;
+mod turns;
 
 pub use accelerator::Accelerator;
 pub use batch::{Hit, HitBatch, MISS, Ray, RayBatch};

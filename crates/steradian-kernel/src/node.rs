@@ -93,7 +93,7 @@ impl Child {
     const LEAF: u32 = 1 << 31;
     const QUADRIC: u32 = 1 << 30;
 
-    pub(crate) fn node(index: usize) -> Self {
+    pub(crate) const fn node(index: usize) -> Self {
         Self(index as u32)
     }
 
@@ -110,9 +110,15 @@ impl Child {
         self.0 & Self::LEAF == 0
     }
 
+    /// Among the nodes, the leaves or the quadrics.
+    #[inline(always)]
+    pub(crate) fn index(self) -> usize {
+        (self.0 & !(Self::LEAF | Self::QUADRIC)) as usize
+    }
+
     #[inline(always)]
     pub(crate) fn below(self) -> Below {
-        let index = (self.0 & !(Self::LEAF | Self::QUADRIC)) as usize;
+        let index = self.index();
         if self.is_node() {
             Below::Node(index)
         } else if self.0 & Self::QUADRIC == 0 {

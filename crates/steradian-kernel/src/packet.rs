@@ -27,12 +27,6 @@ use beam::Beam;
 use best::Best;
 use bundle::Bundle;
 
-/// Lanes of the widest vector.
-const MOST_LANES: usize = 16;
-
-/// A number for every ray.
-type Column = [f32; MOST_LANES];
-
 /// Neighbouring rays with what they share.
 pub(crate) struct Packet<'a, S: Simd> {
     set: S,
@@ -64,9 +58,9 @@ impl<'a, S: Simd> Packet<'a, S> {
         })
     }
 
-    /// Improves the hits by quadrics, by index.
-    pub(crate) fn try_quadrics(&mut self, target: Target<'_>, indices: &[u32]) {
-        for &index in indices {
+    /// Improves the hits by what is not in the tree.
+    pub(crate) fn try_quadrics(&mut self, target: Target<'_>) {
+        for &index in target.unbounded {
             self.try_quadric(target, index as usize);
         }
     }

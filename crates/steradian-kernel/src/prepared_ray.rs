@@ -54,6 +54,13 @@ impl PreparedRay {
             t_max: ray.t_max.min(f32::MAX),
         })
     }
+
+    /// `bounds` holds everything that is to be tested.
+    #[inline(always)]
+    pub(crate) fn slabs(&self, ray: &Ray, bounds: &Bounds) -> SlabNumbers<f32> {
+        let longest = ray.direction[self.axes[2]].abs();
+        SlabNumbers::new(Scalar, ray.origin, ray.direction, longest, bounds)
+    }
 }
 
 /// Components in the order of the shear.
@@ -103,18 +110,6 @@ pub(crate) struct Slabs<F> {
 }
 
 impl<F: Floats> Slabs<F> {
-    /// `bounds` holds everything that is to be tested.
-    #[inline(always)]
-    pub(crate) fn new(set: F::Set, ray: &Ray, main: usize, bounds: &Bounds) -> Self {
-        let slabs = SlabNumbers::new(ray, main, bounds);
-        Self {
-            near_origin: splat(set, slabs.near_origin),
-            far_origin: splat(set, slabs.far_origin),
-            reciprocal: splat(set, slabs.reciprocal),
-            near_side: slabs.near_side,
-        }
-    }
-
     /// Where the ray enters each child's box, and the children whose box it meets before or at `t_max`.
     #[inline(always)]
     pub(crate) fn test(&self, set: F::Set, node: &Node, t_max: F) -> (F, F::Mask) {
@@ -140,49 +135,69 @@ impl<F: Floats> Slabs<F> {
 
 /// The largest coordinate difference between an origin and the scene.
 #[inline(always)]
-pub(crate) fn reach(bounds: &Bounds, origin: [f32; 3]) -> f32 {
-    let mut reach = 0.0_f32;
+pub(crate) fn reach<F: Floats>(set: F::Set, bounds: &Bounds, origin: [F; 3]) -> F {
+    let mut reach = F::splat(set, 0.0);
     for k in 0..3 {
-        let below = (bounds.lower[k] - origin[k]).abs();
-        reach = reach.max(below).max((bounds.upper[k] - origin[k]).abs());
+        let below = (F::splat(set, bounds.lower[k]) - origin[k]).absolute(set);
+        let above = (F::splat(set, bounds.upper[k]) - origin[k]).absolute(set);
+        reach = reach.maximum(below).maximum(above);
     }
     reach
 }
 
 /// How far an origin is moved along an axis.
 #[inline(always)]
-pub(crate) fn shift(reach: f32, coordinate: f32) -> f32 {
-    PADDING * reach + ORIGIN_ROUNDING * coordinate
+pub(crate) fn shift<F: Floats>(set: F::Set, reach: F, coordinate: F) -> F {
+    F::splat(set, PADDING) * reach + F::splat(set, ORIGIN_ROUNDING) * coordinate
 }
 
-/// [`Slabs`] before they are copied to all lanes.
-struct SlabNumbers {
-    near_origin: [f32; 3],
-    far_origin: [f32; 3],
-    reciprocal: [f32; 3],
-    near_side: [usize; 3],
+/// [`Slabs`] before they are copied to the lanes of boxes; of one ray, or of one in each lane.
+#[derive(Copy, Clone)]
+pub(crate) struct SlabNumbers<F> {
+    pub(crate) near_origin: [F; 3],
+    pub(crate) far_origin: [F; 3],
+    pub(crate) reciprocal: [F; 3],
 }
 
-impl SlabNumbers {
+impl<F: Floats> SlabNumbers<F> {
+    /// `longest` is the largest component of the direction, `bounds` holds everything that is to be tested.
     #[inline(always)]
-    fn new(ray: &Ray, main: usize, bounds: &Bounds) -> Self {
-        let flattest = ray.direction[main].abs() * FLATTEST;
-        let reach = reach(bounds, ray.origin);
+    pub(crate) fn new(
+        set: F::Set,
+        origin: [F; 3],
+        direction: [F; 3],
+        longest: F,
+        bounds: &Bounds,
+    ) -> Self {
+        let (zero, one) = (F::splat(set, 0.0), F::splat(set, 1.0));
+        let flattest = longest * F::splat(set, FLATTEST);
+        let reach = reach(set, bounds, origin);
         let mut slabs = Self {
-            near_origin: [0.0; 3],
-            far_origin: [0.0; 3],
-            reciprocal: [0.0; 3],
-            near_side: [0; 3],
+            near_origin: [zero; 3],
+            far_origin: [zero; 3],
+            reciprocal: [zero; 3],
         };
         for k in 0..3 {
-            let (origin, direction) = (ray.origin[k], ray.direction[k]);
-            let shift = shift(reach, origin.abs()).copysign(direction);
-            slabs.near_origin[k] = origin + shift;
-            slabs.far_origin[k] = origin - shift;
-            slabs.reciprocal[k] = 1.0 / direction.abs().max(flattest).copysign(direction);
-            slabs.near_side[k] = usize::from(direction.is_sign_negative());
+            let sign = F::select(direction[k].less(zero), zero - one, one);
+            let shift = shift(set, reach, origin[k].absolute(set)) * sign;
+            slabs.near_origin[k] = origin[k] + shift;
+            slabs.far_origin[k] = origin[k] - shift;
+            slabs.reciprocal[k] = sign / direction[k].absolute(set).maximum(flattest);
         }
         slabs
+    }
+}
+
+impl SlabNumbers<f32> {
+    /// The same ray in every lane.
+    #[inline(always)]
+    pub(crate) fn splat<F: Floats>(&self, set: F::Set) -> Slabs<F> {
+        Slabs {
+            near_origin: splat(set, self.near_origin),
+            far_origin: splat(set, self.far_origin),
+            reciprocal: splat(set, self.reciprocal),
+            near_side: self.reciprocal.map(|r| usize::from(r.is_sign_negative())),
+        }
     }
 }
 

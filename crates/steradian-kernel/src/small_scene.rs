@@ -12,6 +12,7 @@ mod quad;
 
 use crate::batch::{Hit, HitBatch, MISS, RayBatch};
 use crate::node::Bounds;
+use crate::side_by_side::{Column, MOST_LANES};
 use crate::simd::{Floats, Mask, Simd};
 use crate::triangle::intersect_sheared;
 use group::Group;
@@ -19,12 +20,6 @@ use quad::{Doubt, Quad, quads};
 
 /// Up to this many triangles, trying all is faster than a tree.
 pub(crate) const MOST_TRIANGLES: usize = 64;
-
-/// Lanes of the widest vector.
-const MOST_LANES: usize = 16;
-
-/// A number for every ray of a group.
-type Column = [f32; MOST_LANES];
 
 /// Triangles by number, over vertices without duplicates.
 #[derive(Clone)]

@@ -1,6 +1,6 @@
-//! Walks through the wide tree: one for the closest hit, one for any hit.
+//! What every walk through the wide tree needs, and that of one ray on its own.
 //!
-//! The closest-hit walk goes to the nearest child first and keeps the others on a stack, sorted by where the ray enters
+//! The walk goes to the nearest child first and keeps the others on a stack, sorted by where the ray enters
 //! them. A stack entry packs that `t` above the child's number: for non-negative numbers the order of the bits is the order of
 //! the values, so one integer comparison sorts.
 
@@ -8,7 +8,7 @@ use crate::batch::{Hit, MISS, Ray};
 use crate::collapse::WideTree;
 use crate::geometry::Quadric;
 use crate::node::{Below, Bounds, Child, Leaf, Node, WIDTH};
-use crate::prepared_ray::{PreparedRay, Slabs};
+use crate::prepared_ray::PreparedRay;
 use crate::simd::{Floats, Mask, Simd};
 use crate::triangle::{Edges, Intersection, Shear, exact_intersection};
 
@@ -18,8 +18,22 @@ pub(crate) struct Target<'a> {
     pub(crate) tree: &'a WideTree,
     pub(crate) bounds: &'a Bounds,
     pub(crate) quadrics: &'a [Quadric],
+    /// The quadrics that are not in the tree, by index.
+    pub(crate) unbounded: &'a [u32],
     /// The number of triangles: the primitive number of the first quadric.
     pub(crate) first_quadric: u32,
+}
+
+impl Target<'_> {
+    /// Whether a quadric was better than the hit so far, which it then is.
+    #[inline(always)]
+    pub(crate) fn offer_quadric(&self, index: usize, ray: &Ray, closest: &mut Closest) -> bool {
+        let crossing = self.quadrics[index].intersect(ray, closest.0.t);
+        crossing.is_some_and(|t| {
+            closest.offer(self.first_quadric + index as u32, [t, 0.0, 0.0]);
+            true
+        })
+    }
 }
 
 /// The closest hit so far; before the first one, `t` is the ray's last.
@@ -63,7 +77,7 @@ pub(crate) fn stack_for(tree: &WideTree) -> Vec<u64> {
 }
 
 #[inline(always)]
-fn pack(entry: f32, child: Child) -> u64 {
+pub(crate) fn pack(entry: f32, child: Child) -> u64 {
     u64::from(entry.to_bits()) << 32 | u64::from(child.0)
 }
 
@@ -87,7 +101,7 @@ pub(crate) fn closest<S: Simd>(
     stack: &mut [u64],
     closest: &mut Closest,
 ) {
-    let slabs = Slabs::<S::Eight>::new(set, ray, prepared.axes[2], target.bounds);
+    let slabs = prepared.slabs(ray, target.bounds).splat::<S::Eight>(set);
     let shear = prepared.shear.splat::<S::Eight>(set);
     let (mut current, mut top) = (Child::node(0), 0);
     loop {
@@ -103,12 +117,10 @@ pub(crate) fn closest<S: Simd>(
                 }
             }
             Below::Leaf(index) => {
-                closest_in_leaf(set, &target.tree.leaves[index], prepared, &shear, closest)
+                closest_in_leaf(set, &target.tree.leaves[index], prepared, &shear, closest);
             }
             Below::Quadric(index) => {
-                if let Some(t) = target.quadrics[index].intersect(ray, closest.0.t) {
-                    closest.offer(target.first_quadric + index as u32, [t, 0.0, 0.0]);
-                }
+                target.offer_quadric(index, ray, closest);
             }
         }
         let Some(next) = pop(stack, &mut top, closest.0.t) else {
@@ -215,17 +227,18 @@ fn test_leaf<S: Simd>(
     let c = shear.apply(load_corner(set, &leaf.corners[2], prepared.axes));
     let edges = Edges::new(a, b, c);
     let inside = edges.inside(set).bits();
-    if inside == 0 {
-        return None;
-    }
     let certain = edges.certainly_inside(set);
     let intersection = edges.intersection([a[2], b[2], c[2]]);
     let ahead = S::Eight::splat(set, 0.0).less(intersection.t);
     let before_end = intersection.t.less_equal(S::Eight::splat(set, t_max));
     let accepted = (certain & ahead & before_end).bits();
+    let uncertain = inside & !certain.bits();
+    if accepted | uncertain == 0 {
+        return None;
+    }
     Some(LeafTest {
         accepted,
-        uncertain: inside & !certain.bits(),
+        uncertain,
         intersection,
     })
 }
@@ -244,16 +257,17 @@ fn load_corner<F: Floats>(
     ]
 }
 
+/// Improves `closest` by the triangles of a leaf; false if none was worth a look.
 #[inline(always)]
-fn closest_in_leaf<S: Simd>(
+pub(crate) fn closest_in_leaf<S: Simd>(
     set: S,
     leaf: &Leaf,
     prepared: &PreparedRay,
     shear: &Shear<S::Eight>,
     closest: &mut Closest,
-) {
+) -> bool {
     let Some(test) = test_leaf(set, leaf, prepared, shear, closest.0.t) else {
-        return;
+        return false;
     };
     if test.accepted != 0 {
         offer_lanes(leaf, test.accepted, &test.intersection, closest);
@@ -266,6 +280,7 @@ fn closest_in_leaf<S: Simd>(
             closest.offer(leaf.triangles[lane], crossing);
         }
     }
+    true
 }
 
 #[inline(always)]
@@ -303,70 +318,24 @@ pub(crate) fn exact_in_lane(leaf: &Leaf, lane: usize, prepared: &PreparedRay) ->
     exact_intersection(a, b, c)
 }
 
-/// Whether anything in the tree has `0 < t < end`.
+/// Whether any triangle is hit in 0 < t ≤ the ray's last; the hit then has some primitive and nothing else.
 #[inline(always)]
-pub(crate) fn occluded<S: Simd>(
-    set: S,
-    target: Target<'_>,
-    ray: &Ray,
-    prepared: &PreparedRay,
-    stack: &mut [u64],
-    last: f32,
-) -> bool {
-    let slabs = Slabs::<S::Eight>::new(set, ray, prepared.axes[2], target.bounds);
-    let shear = prepared.shear.splat::<S::Eight>(set);
-    let end = S::Eight::splat(set, last);
-    let (mut current, mut top) = (Child::node(0), 0);
-    loop {
-        match current.below() {
-            Below::Node(index) => {
-                let node = &target.tree.nodes[index];
-                let mut met = slabs.test(set, node, end).1.bits();
-                if met != 0 {
-                    current = node.children[met.trailing_zeros() as usize];
-                    met &= met - 1;
-                    while met != 0 {
-                        let lane = 31 - met.leading_zeros() as usize;
-                        met ^= 1 << lane;
-                        stack[top] = u64::from(node.children[lane].0);
-                        prefetch(set, target.tree, node.children[lane]);
-                        top += 1;
-                    }
-                    continue;
-                }
-            }
-            Below::Leaf(index) => {
-                if occluded_in_leaf(set, &target.tree.leaves[index], prepared, &shear, last) {
-                    return true;
-                }
-            }
-            Below::Quadric(index) => {
-                if target.quadrics[index].intersect(ray, last).is_some() {
-                    return true;
-                }
-            }
-        }
-        if top == 0 {
-            return false;
-        }
-        top -= 1;
-        current = child_of(stack[top]);
-    }
-}
-
-#[inline(always)]
-fn occluded_in_leaf<S: Simd>(
+pub(crate) fn occluded_in_leaf<S: Simd>(
     set: S,
     leaf: &Leaf,
     prepared: &PreparedRay,
     shear: &Shear<S::Eight>,
-    last: f32,
+    any: &mut Closest,
 ) -> bool {
+    let last = any.0.t;
     let Some(test) = test_leaf(set, leaf, prepared, shear, last) else {
         return false;
     };
-    test.accepted != 0
-        || (test.uncertain != 0 && exactly_occluded(leaf, test.uncertain, prepared, last))
+    let is_hit = test.accepted != 0 || exactly_occluded(leaf, test.uncertain, prepared, last);
+    if is_hit {
+        any.0.primitive = leaf.triangles[0];
+    }
+    is_hit
 }
 
 #[cold]

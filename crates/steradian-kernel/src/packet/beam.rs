@@ -5,10 +5,10 @@
 //! sheared to the same side of it.
 
 use super::bundle::Bundle;
-use super::{Column, MOST_LANES};
 use crate::node::{Bounds, Leaf, Node};
 use crate::prepared_ray::{FLATTEST, permute, reach, shift};
-use crate::simd::Floats;
+use crate::side_by_side::{Column, MOST_LANES};
+use crate::simd::{Floats, Scalar};
 use crate::triangle::splat;
 
 /// The widest interval of slopes of a packet: rays further apart go alone.
@@ -149,7 +149,7 @@ struct BeamSlabs {
 impl BeamSlabs {
     #[inline(always)]
     fn new<R: Floats>([lower, upper]: [[f32; 3]; 2], bundle: &Bundle<R>, bounds: &Bounds) -> Self {
-        let reach = reach(bounds, lower).max(reach(bounds, upper));
+        let reach = reach(Scalar, bounds, lower).max(reach(Scalar, bounds, upper));
         let [shortest, longest] = ends_of_all(bundle.lengths);
         let main = bundle.axes[2];
         let flattest = [longest[main] * FLATTEST, shortest[main] * FLATTEST];
@@ -159,7 +159,7 @@ impl BeamSlabs {
             reciprocal: [[0.0; 3]; 2],
         };
         for k in 0..3 {
-            let shift = shift(reach, lower[k].abs().max(upper[k].abs()));
+            let shift = shift(Scalar, reach, lower[k].abs().max(upper[k].abs()));
             let (behind, ahead) = (lower[k] - shift, upper[k] + shift);
             let (sign, [far, near]) = if bundle.is_negative[k] {
                 (-1.0, [ahead, behind])

@@ -1,7 +1,7 @@
 //! The closest hits of a packet so far.
 
-use super::{Column, MOST_LANES};
 use crate::batch::{Hit, MISS};
+use crate::side_by_side::{Column, MOST_LANES};
 use crate::simd::{Floats, Mask};
 use crate::traversal::Closest;
 use crate::triangle::Intersection;

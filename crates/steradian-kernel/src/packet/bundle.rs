@@ -41,9 +41,9 @@ impl<F: Floats> Bundle<F> {
             F::load(set, &rays.direction_z[start..]),
         ];
         let lengths = [
-            absolute(set, direction[0]),
-            absolute(set, direction[1]),
-            absolute(set, direction[2]),
+            direction[0].absolute(set),
+            direction[1].absolute(set),
+            direction[2].absolute(set),
         ];
         let t_max = F::load(set, &rays.t_max[start..]);
         let is_negative = common_signs::<F>(rays, start)?;
@@ -92,18 +92,13 @@ fn common_sign<F: Floats>(column: &[f32]) -> Option<bool> {
     (differences >> 31 == 0).then_some(first >> 31 == 1)
 }
 
-#[inline(always)]
-fn absolute<F: Floats>(set: F::Set, x: F) -> F {
-    x.maximum(F::splat(set, 0.0) - x)
-}
-
 /// [`Ray`](crate::Ray) says what is valid; all comparisons fail on NaN. `length` is the main component's.
 #[inline(always)]
 fn are_valid<F: Floats>(set: F::Set, [x, y, z]: [F; 3], length: F, t_max: F) -> bool {
     let limit = F::splat(set, COORDINATE_LIMIT);
-    let near = absolute(set, x).less_equal(limit)
-        & absolute(set, y).less_equal(limit)
-        & absolute(set, z).less_equal(limit);
+    let near = x.absolute(set).less_equal(limit)
+        & y.absolute(set).less_equal(limit)
+        & z.absolute(set).less_equal(limit);
     let fits = length.less_equal(F::splat(set, *DIRECTION_RANGE.end()))
         & F::splat(set, *DIRECTION_RANGE.start()).less_equal(length);
     is_full::<F>(near & fits & t_max.less_equal(F::splat(set, f32::INFINITY)))

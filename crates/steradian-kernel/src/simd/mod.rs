@@ -25,6 +25,28 @@ pub(crate) trait Simd: Copy {
 
     /// Asks for the cache line at `line`; the pointer is never read from.
     fn prefetch<T>(self, line: *const T);
+
+    /// Puts, lane by lane where the mask is set, the bits of `high` above those of `low` to the front of `out`, and says how many.
+    /// What is behind them in `out` is overwritten by anything.
+    #[inline(always)]
+    fn pairs(
+        self,
+        mask: <Self::Eight as Floats>::Mask,
+        high: Self::Eight,
+        low: [u32; 8],
+        out: &mut [u64; 8],
+    ) -> usize {
+        let mut column = [0.0; 8];
+        high.store(&mut column);
+        let (mut lanes, mut len) = (mask.bits(), 0);
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize % 8;
+            lanes &= lanes - 1;
+            out[len % 8] = u64::from(column[lane].to_bits()) << 32 | u64::from(low[lane]);
+            len += 1;
+        }
+        len
+    }
 }
 
 /// One truth value a lane.
@@ -51,6 +73,11 @@ pub(crate) trait Floats:
     fn store(self, values: &mut [f32]);
     fn minimum(self, other: Self) -> Self;
     fn maximum(self, other: Self) -> Self;
+    /// Of −0, too, this is +0.
+    #[inline(always)]
+    fn absolute(self, set: Self::Set) -> Self {
+        self.maximum(Self::splat(set, 0.0) - self)
+    }
     fn less(self, other: Self) -> Self::Mask;
     fn less_equal(self, other: Self) -> Self::Mask;
     /// `yes` where the mask is set, `no` elsewhere.
@@ -88,7 +115,24 @@ mod tests {
             all.sort_unstable();
             wide.sort_unstable();
             assert_eq!(all, wide);
+            pairs(set, &mut all);
             all
+        }
+    }
+
+    /// Of all lanes that a mask can have.
+    fn pairs<S: Simd>(set: S, out: &mut Vec<u32>) {
+        let low = std::array::from_fn(|lane| 7 * lane as u32 + 1);
+        for lanes in 0..256_u32 {
+            let chosen: [f32; 8] = std::array::from_fn(|lane| (lanes >> lane & 1) as f32);
+            let zero = S::Eight::splat(set, 0.0);
+            let mask = zero.less(S::Eight::load(set, &chosen));
+            let mut pairs = [0; 8];
+            let len = set.pairs(mask, S::Eight::load(set, &A), low, &mut pairs);
+            assert_eq!(len, lanes.count_ones() as usize);
+            for pair in &pairs[..len] {
+                out.extend([(pair >> 32) as u32, *pair as u32]);
+            }
         }
     }
 

@@ -8,6 +8,14 @@ use super::{Floats, Mask, Simd};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Sub};
 
+/// An intrinsic whose instruction exists, as the head of this file says.
+macro_rules! intrinsic {
+    ($function:ident $(::<{ $constant:expr }>)? ($($argument:expr),*)) => {
+        // SAFETY: the vector or marker at hand proves that the instruction exists; pointers come from checked slices.
+        unsafe { $function$(::<{ $constant }>)?($($argument),*) }
+    };
+}
+
 /// Proof that the machine has AVX2.
 #[derive(Copy, Clone)]
 pub(crate) struct Avx2(());
@@ -34,6 +42,26 @@ impl Avx512 {
     }
 }
 
+/// For each mask its lanes in rising order, then zeros.
+static FRONT: [[u8; 8]; 256] = lanes_to_the_front();
+
+const fn lanes_to_the_front() -> [[u8; 8]; 256] {
+    let mut orders = [[0; 8]; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        let (mut lane, mut len) = (0, 0);
+        while lane < 8 {
+            if mask >> lane & 1 == 1 {
+                orders[mask][len] = lane as u8;
+                len += 1;
+            }
+            lane += 1;
+        }
+        mask += 1;
+    }
+    orders
+}
+
 impl Simd for Avx2 {
     type Eight = Avx2x8;
     type Wide = Avx2x8;
@@ -42,6 +70,29 @@ impl Simd for Avx2 {
     fn prefetch<T>(self, line: *const T) {
         // SAFETY: a prefetch reads nothing and never faults.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(line.cast()) }
+    }
+
+    #[inline(always)]
+    fn pairs(self, mask: Mask256, high: Avx2x8, low: [u32; 8], out: &mut [u64; 8]) -> usize {
+        let bits = mask.bits() as usize;
+        let order = FRONT[bits % 256].as_ptr();
+        let order = intrinsic!(_mm_loadl_epi64(order.cast()));
+        let order = intrinsic!(_mm256_cvtepu8_epi32(order));
+        let low = intrinsic!(_mm256_loadu_si256(low.as_ptr().cast()));
+        let low = intrinsic!(_mm256_permutevar8x32_epi32(low, order));
+        let high = intrinsic!(_mm256_castps_si256(high.0));
+        let high = intrinsic!(_mm256_permutevar8x32_epi32(high, order));
+        // Lanes 0, 1, 4, 5 and lanes 2, 3, 6, 7.
+        let outer = intrinsic!(_mm256_unpacklo_epi32(low, high));
+        let inner = intrinsic!(_mm256_unpackhi_epi32(low, high));
+        let first = intrinsic!(_mm256_permute2x128_si256::<{ 0x20 }>(outer, inner));
+        let second = intrinsic!(_mm256_permute2x128_si256::<{ 0x31 }>(outer, inner));
+        let [front, back] = out.as_chunks_mut::<4>().0 else {
+            return 0;
+        };
+        intrinsic!(_mm256_storeu_si256(front.as_mut_ptr().cast(), first));
+        intrinsic!(_mm256_storeu_si256(back.as_mut_ptr().cast(), second));
+        bits.count_ones() as usize
     }
 }
 
@@ -54,14 +105,19 @@ impl Simd for Avx512 {
         // SAFETY: a prefetch reads nothing and never faults.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(line.cast()) }
     }
-}
 
-/// An intrinsic whose instruction exists, as the head of this file says.
-macro_rules! intrinsic {
-    ($function:ident $(::<{ $constant:expr }>)? ($($argument:expr),*)) => {
-        // SAFETY: the vector or marker at hand proves that the instruction exists; pointers come from checked slices.
-        unsafe { $function$(::<{ $constant }>)?($($argument),*) }
-    };
+    #[inline(always)]
+    fn pairs(self, mask: Mask8, high: Avx512x8, low: [u32; 8], out: &mut [u64; 8]) -> usize {
+        let low = intrinsic!(_mm256_loadu_si256(low.as_ptr().cast()));
+        let low = intrinsic!(_mm512_cvtepu32_epi64(low));
+        let high = intrinsic!(_mm256_castps_si256(high.0));
+        let high = intrinsic!(_mm512_cvtepu32_epi64(high));
+        let high = intrinsic!(_mm512_slli_epi64::<{ 32 }>(high));
+        let pairs = intrinsic!(_mm512_or_si512(high, low));
+        let pairs = intrinsic!(_mm512_maskz_compress_epi64(mask.0, pairs));
+        intrinsic!(_mm512_storeu_si512(out.as_mut_ptr().cast(), pairs));
+        mask.0.count_ones() as usize
+    }
 }
 
 macro_rules! operators {

@@ -91,25 +91,14 @@ fn hinges() -> impl Strategy<Value = Geometry> {
 
 /// The cube from −1 to 1, whose faces are those of its bounds, and a triangle in it.
 fn room() -> Geometry {
-    let corner = |k: u8| [0, 1, 2].map(|axis| f32::from(k >> axis & 1) * 2.0 - 1.0);
-    let faces = [
-        [0, 1, 3, 2],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 3, 7, 5],
-    ];
-    let halves = faces
-        .into_iter()
-        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    let mut positions: Vec<_> = (0..8).map(corner).collect();
-    positions.extend([[-0.5, 0.1, 0.2], [0.9, -0.3, 0.4], [0.1, 0.2, -0.8]]);
-    Geometry {
-        positions,
-        triangles: halves.chain([[8, 9, 10]]).collect(),
+    let mut room = meshes::cuboid([-1.0; 3], [1.0; 3]);
+    let inside = Geometry {
+        positions: vec![[-0.5, 0.1, 0.2], [0.9, -0.3, 0.4], [0.1, 0.2, -0.8]],
+        triangles: vec![[0, 1, 2]],
         quadrics: vec![],
-    }
+    };
+    meshes::append(&mut room, &inside);
+    room
 }
 
 /// Segments within the room, some of them to its very walls, out of it, and past it.
