@@ -1,7 +1,7 @@
 //! Where results go.
 
 use std::ffi::OsStr;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Stdout, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -34,20 +34,65 @@ pub fn stream(
     file: Option<&Path>,
     encode: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    let Some(path) = file else {
-        let mut stdout = BufWriter::new(io::stdout().lock());
-        encode(&mut stdout)?;
-        return Ok(stdout.flush()?);
-    };
-    let mut file = AtomicFile::create(path)?;
-    let mut buffer = BufWriter::new(file.sink());
-    let written = encode(&mut buffer).and_then(|()| buffer.flush());
-    drop(buffer);
-    written.map_err(|source| ReportError::Write {
-        path: path.to_owned(),
-        source,
-    })?;
-    Ok(file.finish()?)
+    let mut sink = Sink::open(file)?;
+    encode(&mut sink).map_err(|error| refused(error, file))?;
+    sink.finish()
+}
+
+/// Standard output, or a file that is there when it is finished.
+pub enum Sink {
+    Standard(BufWriter<Stdout>),
+    File(BufWriter<AtomicFile>),
+}
+
+impl Sink {
+    /// Begins the file, or standard output if there is none.
+    pub fn open(file: Option<&Path>) -> Result<Self, Failure> {
+        Ok(match file {
+            Some(path) => Self::File(BufWriter::new(AtomicFile::create(path)?)),
+            None => Self::Standard(BufWriter::new(io::stdout())),
+        })
+    }
+
+    /// All is written.
+    pub fn finish(self) -> Result<(), Failure> {
+        match self {
+            Self::Standard(mut stdout) => Ok(stdout.flush()?),
+            Self::File(buffer) => {
+                let file = buffer.into_inner();
+                let file = file.map_err(|error| ReportError::Output(error.into_error()))?;
+                Ok(file.finish()?)
+            }
+        }
+    }
+}
+
+impl Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Standard(stdout) => stdout.write(bytes),
+            Self::File(file) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Standard(stdout) => stdout.flush(),
+            Self::File(file) => file.flush(),
+        }
+    }
+}
+
+/// What to say when a report could not be written.
+pub fn refused(error: io::Error, file: Option<&Path>) -> Failure {
+    match (error.downcast::<ReportError>(), file) {
+        (Ok(report), _) => report.into(),
+        (Err(source), Some(path)) => {
+            let path = path.to_owned();
+            ReportError::Write { path, source }.into()
+        }
+        (Err(error), None) => error.into(),
+    }
 }
 
 /// Prints to standard output.

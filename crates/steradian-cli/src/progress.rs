@@ -46,8 +46,8 @@ impl Watch {
 impl Observer for Watch {
     fn update(&mut self, progress: &Progress) -> ControlFlow<()> {
         self.bar.set_prefix(phase(progress.phase));
-        self.bar
-            .set_position(STEPS * progress.samples / progress.planned.max(1));
+        let position = STEPS as f64 * progress.finished;
+        self.bar.set_position(position as u64);
         self.bar.set_message(message(progress));
         if self.interrupt.was_pressed() {
             ControlFlow::Break(())

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use steradian::measurement::{Balance, Measurements};
-use steradian_io::report::{Run, csv, json, table};
+use steradian_io::report::{Run, StreamFormat, csv, json, table};
 
 use crate::output;
 use crate::status::{Failure, Outcome};
@@ -27,6 +27,19 @@ pub enum Format {
 }
 
 impl Format {
+    /// The same where it can be written block by block.
+    pub fn streamed(self) -> Option<StreamFormat> {
+        match self {
+            Self::Table => None,
+            Self::Json => Some(StreamFormat::Json),
+            Self::Csv => Some(StreamFormat::Csv),
+            #[cfg(feature = "parquet")]
+            Self::Parquet => Some(StreamFormat::Parquet),
+            #[cfg(not(feature = "parquet"))]
+            Self::Parquet => None,
+        }
+    }
+
     /// What was asked for, or what the ending of the name says, or a table. What cannot be written is told here, before light is traced.
     pub fn of(asked: Option<Self>, file: Option<&Path>) -> Result<Self, Failure> {
         let ending = file
@@ -90,15 +103,9 @@ impl Readings {
 
 #[cfg(feature = "parquet")]
 fn write_parquet(run: &Run<'_>, file: Option<&Path>) -> Result<(), Failure> {
-    use steradian_io::report::{AtomicFile, parquet};
-    let Some(path) = file else {
-        let mut bytes = Vec::new();
-        parquet::encode(run, &mut bytes)?;
-        return output::write(&bytes, None);
-    };
-    let mut file = AtomicFile::create(path)?;
-    parquet::encode(run, file.sink())?;
-    Ok(file.finish()?)
+    let mut sink = output::Sink::open(file)?;
+    steradian_io::report::parquet::encode(run, &mut sink)?;
+    sink.finish()
 }
 
 #[cfg(not(feature = "parquet"))]

@@ -58,7 +58,10 @@ impl From<io::Error> for Failure {
 
 impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
-        Self::Other(error.into())
+        match error {
+            ReportError::Output(refused) => refused.into(),
+            error => Self::Other(error.into()),
+        }
     }
 }
 

@@ -4,9 +4,11 @@
 //! and so that shards can be put together bit for bit. Only [`Estimate`]s leave it.
 
 mod balance;
+mod blocks;
 mod check;
 mod dimming;
 mod exposure;
+mod gathered;
 mod merge;
 mod resampled;
 pub mod solve;
@@ -15,9 +17,11 @@ mod statistics;
 mod synthetic;
 
 pub use balance::Balance;
+pub use blocks::Unmeasured;
 pub use check::Contradiction;
 pub use dimming::{Dimming, RelightError, ScheduleError};
 pub use exposure::Exposure;
+pub use gathered::Gathered;
 pub use statistics::{Extreme, Statistics};
 
 use serde::{Deserialize, Serialize};
@@ -133,7 +137,7 @@ pub struct Reading {
 impl Reading {
     /// Whether it was sampled and no light was found.
     pub fn is_dark(&self) -> bool {
-        self.estimate.value == 0.0 && self.estimate.std_error.is_infinite()
+        self.estimate.is_dark()
     }
 }
 
@@ -151,10 +155,11 @@ impl Measurements {
     /// Number of readings that did not.
     pub fn missed(&self) -> usize {
         let is_balance = self.is_balance();
-        let is_met =
-            |reading: &Reading| reading.estimate.converged || (is_balance && reading.is_dark());
-        self.iter_readings()
-            .filter(|reading| !is_met(reading))
+        let is_met = |found: &Estimate| found.converged || (is_balance && found.is_dark());
+        let found = self.points_by_quantity();
+        found
+            .map(|(_, point, quantity)| self.value_of(point, quantity))
+            .filter(|found| !is_met(found))
             .count()
     }
 
@@ -165,19 +170,38 @@ impl Measurements {
 
     /// The readings of every sensor, in order, each made when it is asked for.
     pub fn iter_readings(&self) -> impl Iterator<Item = Reading> {
+        self.points_by_quantity()
+            .map(|(sensor, point, quantity)| self.reading(sensor, point, quantity))
+    }
+
+    /// The same without the parts of channels and light groups, which take most of the time.
+    pub fn iter_values(&self) -> impl Iterator<Item = Reading> {
+        self.points_by_quantity()
+            .map(|(sensor, point, quantity)| self.value(sensor, point, quantity))
+    }
+
+    /// What there is a reading of, in order.
+    fn points_by_quantity(&self) -> impl Iterator<Item = (&SensorRecord, &PointRecord, &Readout)> {
         let points = self
             .sensors
             .iter()
             .flat_map(|sensor| sensor.points.iter().map(move |point| (sensor, point)));
-        points.flat_map(move |(sensor, point)| {
-            sensor
-                .quantities
-                .iter()
-                .map(move |q| self.reading(sensor, point, q))
+        points.flat_map(|(sensor, point)| {
+            let quantities = sensor.quantities.iter();
+            quantities.map(move |quantity| (sensor, point, quantity))
         })
     }
 
     fn reading(&self, sensor: &SensorRecord, point: &PointRecord, quantity: &Readout) -> Reading {
+        Reading {
+            channels: self.channels(point, quantity),
+            groups: self.shares(point, quantity),
+            ..self.value(sensor, point, quantity)
+        }
+    }
+
+    /// A reading without its parts.
+    fn value(&self, sensor: &SensorRecord, point: &PointRecord, quantity: &Readout) -> Reading {
         let samples = point.replicates.as_ref();
         Reading {
             sensor: match &point.about {
@@ -190,12 +214,16 @@ impl Measurements {
             sits_on: point.sits_on.clone(),
             quantity: quantity.name.clone(),
             unit: quantity.unit.clone(),
-            estimate: self.reading_of(point, |_, lane| quantity.weights[lane]),
+            estimate: self.value_of(point, quantity),
             samples: samples.map_or(0, Replicates::total_samples),
-            channels: self.channels(point, quantity),
-            groups: self.shares(point, quantity),
+            channels: vec![],
+            groups: vec![],
             exposure: self.exposure(point, quantity),
         }
+    }
+
+    fn value_of(&self, point: &PointRecord, quantity: &Readout) -> Estimate {
+        self.reading_of(point, |_, lane| quantity.weights[lane])
     }
 
     /// Names of the light groups, each once.

@@ -118,6 +118,30 @@ fn shiny_surfaces_change_no_bit() {
     }
 }
 
+/// Seven points are cut into three blocks, and the other sensors stay whole. Without a tolerance nothing depends on it.
+#[test]
+fn blocks_change_no_bit() {
+    let mut scene = everything();
+    let place = |i: u8| (p(f64::from(i) * 0.3 - 0.9, 0.3, 0.0), UP);
+    scene.sensors.push(sensor(
+        "row",
+        irradiance_at((0..7).map(place).collect::<Vec<_>>()),
+    ));
+    let stop = Stopping::at_samples(1_000);
+    let whole = measured(&scene, &options(stop));
+    for points_of_a_block in [1, 3] {
+        let blocks = MeasureOptions {
+            points_of_a_block,
+            ..options(stop)
+        };
+        assert_eq!(
+            whole,
+            measured(&scene, &blocks),
+            "{points_of_a_block} points"
+        );
+    }
+}
+
 fn replicates(measurements: &Measurements) -> Vec<Replicates> {
     let points = measurements
         .sensors

@@ -4,21 +4,23 @@ mod balance;
 mod relight;
 mod result_file;
 mod solve;
+mod stream;
 
 use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
 use steradian::estimation::{Plan, Stopping};
-use steradian::measurement::Dimming;
+use steradian::measurement::{Dimming, Measurements};
 use steradian::quantity::Time;
 use steradian::scene::description::{Receivers, SceneDescription, SensorDescription, SensorKind};
 use steradian::scene::{Scene, energy_balance};
 use steradian::time::Interval;
 use steradian::transport::{MeasureOptions, measure};
+use steradian_io::report::StreamFormat;
 
 use crate::engine::Engine;
-use crate::load;
+use crate::load::{self, Loaded};
 use crate::part::{self, Kind};
 use crate::progress::Watch;
 use crate::result::{Format, Readings, VERSION};
@@ -158,14 +160,17 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let (file, lights) = (arguments.output.as_deref(), &arguments.lights);
     let format = Format::of(arguments.format, file)?;
     lights.question.refuse(format)?;
-    let mut readings = if result_file::is_one(&arguments.scene) {
-        result_file::read(arguments)?
+    let readings = if result_file::is_one(&arguments.scene) {
+        let mut readings = result_file::read(arguments)?;
+        lights.dim(&mut readings.measurements)?;
+        readings
     } else {
-        traced(arguments)?
+        let job = Job::new(arguments)?;
+        if let Some(format) = arguments.streamed(format) {
+            return stream::write(&job, format, file);
+        }
+        job.readings()?
     };
-    if let Some(levels) = &lights.relight {
-        relight::apply(levels, &mut readings.measurements)?;
-    }
     if lights.question.is_asked() {
         return lights.question.answer(&readings, format, file);
     }
@@ -180,32 +185,72 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     }
 }
 
-/// Readings of a scene.
-fn traced(arguments: &Arguments) -> Result<Readings, Failure> {
-    let loaded = load::scene_with(&arguments.scene, |description| {
+impl Arguments {
+    /// The format, where nothing needs all readings at once.
+    fn streamed(&self, format: Format) -> Option<StreamFormat> {
+        let all_at_once =
+            self.balance || self.engine.shard.is_some() || self.lights.question.is_asked();
+        format.streamed().filter(|_| !all_at_once)
+    }
+}
+
+impl Lights {
+    fn dim(&self, measurements: &mut Measurements) -> Result<(), Failure> {
+        let mut levels = self.relight.iter();
+        levels.try_for_each(|levels| relight::apply(levels, measurements))
+    }
+}
+
+/// What is to be traced.
+struct Job<'a> {
+    scene: Loaded,
+    options: MeasureOptions,
+    dimming: Dimming,
+    lights: &'a Lights,
+}
+
+impl<'a> Job<'a> {
+    fn new(arguments: &'a Arguments) -> Result<Self, Failure> {
+        let loaded = load::scene_with(&arguments.scene, |description| {
+            if arguments.balance {
+                description.sensors = energy_balance();
+            }
+            add_points(arguments, description)
+        })?;
+        let scene = &loaded.scene;
+        let mut options = options(arguments, scene)?;
         if arguments.balance {
-            description.sensors = energy_balance();
+            balance::relative_to_emitted(scene, &mut options)?;
         }
-        add_points(arguments, description)
-    })?;
-    let scene = &loaded.scene;
-    let mut options = options(arguments, scene)?;
-    if arguments.balance {
-        balance::relative_to_emitted(scene, &mut options)?;
+        let schedules = Dimming::new(scene.schedules().to_vec());
+        Ok(Self {
+            dimming: arguments.when.dimming(schedules, scene.groups())?,
+            scene: loaded,
+            options,
+            lights: &arguments.lights,
+        })
     }
-    let schedules = Dimming::new(scene.schedules().to_vec());
-    let dimming = arguments.when.dimming(schedules, scene.groups())?;
-    let mut watch = Watch::new()?;
-    let mut measurements = measure(scene, &options, &mut watch)?;
-    measurements.dimming = dimming;
-    if watch.finish() {
-        remark("stopped by Ctrl-C: these are the readings so far");
+
+    /// Readings at the time and with the lights that were asked for.
+    fn dim(&self, measurements: &mut Measurements) -> Result<(), Failure> {
+        measurements.dimming = self.dimming.clone();
+        self.lights.dim(measurements)
     }
-    Ok(Readings {
-        measurements,
-        scene_hash: loaded.hash,
-        version: VERSION.to_owned(),
-    })
+
+    /// All readings.
+    fn readings(self) -> Result<Readings, Failure> {
+        let mut watch = Watch::new()?;
+        let mut measurements = measure(&self.scene.scene, &self.options, &mut watch)?;
+        if watch.finish() {
+            remark("stopped by Ctrl-C: these are the readings so far");
+        }
+        self.dim(&mut measurements)?;
+        Ok(Readings {
+            measurements,
+            scene_hash: self.scene.hash,
+            version: VERSION.to_owned(),
+        })
+    }
 }
 
 fn options(arguments: &Arguments, scene: &Scene) -> Result<MeasureOptions, Failure> {
@@ -222,6 +267,7 @@ fn options(arguments: &Arguments, scene: &Scene) -> Result<MeasureOptions, Failu
         max_depth: engine.max_depth,
         instruction_set: engine.instruction_set()?,
         sensors: chosen(arguments),
+        ..MeasureOptions::default()
     })
 }
 

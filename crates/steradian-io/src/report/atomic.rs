@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::ReportError;
@@ -22,7 +22,7 @@ impl AtomicFile {
     /// # Errors
     /// If the system refuses.
     pub fn create(path: &Path) -> Result<Self, ReportError> {
-        let partial = partial_name(path);
+        let partial = hidden_name(path, "part");
         let file = fs::File::create(&partial).map_err(|source| failure(path, source))?;
         Ok(Self {
             path: path.to_owned(),
@@ -36,15 +36,14 @@ impl AtomicFile {
     ///
     /// # Errors
     /// If the system refuses.
-    pub fn write(&mut self, bytes: &[u8]) -> Result<(), ReportError> {
-        self.file
-            .write_all(bytes)
-            .map_err(|source| failure(&self.path, source))
+    pub fn append(&mut self, bytes: &[u8]) -> Result<(), ReportError> {
+        let written = self.file.write_all(bytes);
+        written.map_err(|source| failure(&self.path, source))
     }
 
-    /// Where an encoder that writes by itself appends.
-    pub fn sink(&mut self) -> impl Write + Send {
-        &mut self.file
+    /// A file for what must wait, which goes by this name while the result is in the making.
+    pub fn scratch_name(path: &Path) -> PathBuf {
+        hidden_name(path, "blocks")
     }
 
     /// Gives the file its name.
@@ -58,6 +57,17 @@ impl AtomicFile {
             .map_err(|source| failure(&self.path, source))?;
         self.finished = true;
         Ok(())
+    }
+}
+
+/// What an encoder that writes by itself writes is not there before [`AtomicFile::finish`].
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
     }
 }
 
@@ -75,7 +85,7 @@ impl Drop for AtomicFile {
 /// On any error the temporary file is removed and an older file at `path` is untouched.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
     let mut file = AtomicFile::create(path)?;
-    file.write(bytes)?;
+    file.append(bytes)?;
     file.finish()
 }
 
@@ -87,10 +97,10 @@ fn failure(path: &Path, source: std::io::Error) -> ReportError {
 }
 
 /// `folder/name.ext` becomes `folder/.name.ext.1234.part`, 1234 being the process.
-fn partial_name(path: &Path) -> PathBuf {
+fn hidden_name(path: &Path, ending: &str) -> PathBuf {
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}.part", std::process::id()));
+    name.push(format!(".{}.{ending}", std::process::id()));
     path.with_file_name(name)
 }
 

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use steradian::measurement::Measurements;
+
 use super::error::ReportError;
 pub use super::rows::COLUMNS;
 use super::rows::{Row, rows};
@@ -22,14 +24,45 @@ pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
 /// # Errors
 /// If `out` refuses.
 pub fn write(run: &Run<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    writer.write_record(COLUMNS)?;
-    for reading in run.measurements.iter_readings() {
-        for row in rows(&reading) {
-            writer.write_record(record(&row))?;
-        }
+    let mut writer = Writer::new(out)?;
+    writer.block(run.measurements)?;
+    writer.finish().map(drop)
+}
+
+/// Writes readings block by block.
+pub struct Writer<W: Write>(csv::Writer<W>);
+
+impl<W: Write> Writer<W> {
+    /// Writes the heading.
+    ///
+    /// # Errors
+    /// If `out` refuses.
+    pub fn new(out: W) -> io::Result<Self> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(COLUMNS)?;
+        Ok(Self(writer))
     }
-    writer.flush()
+
+    /// Writes the readings of the next block.
+    ///
+    /// # Errors
+    /// If the output refuses.
+    pub fn block(&mut self, block: &Measurements) -> io::Result<()> {
+        for reading in block.iter_values() {
+            for row in rows(&reading) {
+                self.0.write_record(record(&row))?;
+            }
+        }
+        self.0.flush()
+    }
+
+    /// What was written to.
+    ///
+    /// # Errors
+    /// If it refuses the rest.
+    pub fn finish(self) -> io::Result<W> {
+        self.0.into_inner().map_err(|error| error.into_error())
+    }
 }
 
 fn record(row: &Row<'_>) -> [String; COLUMNS.len()] {

@@ -14,6 +14,9 @@ pub enum ReportError {
         /// The system's reason.
         source: std::io::Error,
     },
+    /// The output refused.
+    #[error("cannot write: {0}")]
+    Output(std::io::Error),
     /// The operating system refused to read.
     #[error("cannot read {}: {source}", path.display())]
     Read {

@@ -19,7 +19,9 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 use steradian::estimation::{Estimate, Method};
-use steradian::measurement::{Exposure, Extreme, Measurements, Reading, SensorRecord, Statistics};
+use steradian::measurement::{
+    Exposure, Extreme, Gathered, Measurements, Reading, SensorRecord, Statistics,
+};
 use steradian::quantity::Time;
 
 use super::balance;
@@ -44,36 +46,158 @@ pub fn encode(run: &Run<'_>) -> Result<String, ReportError> {
 /// # Errors
 /// If a number of the measurements cannot be written, or `out` refuses.
 pub fn write(run: &Run<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let mut whole = run.measurements;
+    let gathered = Gathered::of(whole);
+    write_blocks(run, &gathered, &mut whole, out)
+}
+
+/// Measurements that come block by block, as often as they are asked for.
+pub(super) trait Blocks {
+    /// Shows each block in turn.
+    fn each(&mut self, show: &mut dyn FnMut(&Measurements) -> io::Result<()>) -> io::Result<()>;
+}
+
+impl Blocks for &Measurements {
+    fn each(&mut self, show: &mut dyn FnMut(&Measurements) -> io::Result<()>) -> io::Result<()> {
+        show(self)
+    }
+}
+
+/// Writes the readings of all blocks; the measurements of `run` may be without their points.
+pub(super) fn write_blocks(
+    run: &Run<'_>,
+    gathered: &Gathered,
+    blocks: &mut dyn Blocks,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let found = run.measurements;
     write!(out, "{{")?;
-    for (key, fact) in facts(run) {
+    for (key, fact) in facts_if(run, gathered.missed() == 0) {
         write!(out, "\n  \"{key}\": {},", indented(&fact, "  "))?;
     }
-    write_list(
-        out,
-        "readings",
-        found.iter_readings().map(|one| reading(&one)),
-    )?;
+    let mut readings = List::begin(out, "readings")?;
+    blocks.each(&mut |block| {
+        let mut own = block.iter_readings();
+        own.try_for_each(|one| readings.push(&reading(&one)))
+    })?;
+    readings.end()?;
     write_list(out, "balance", found.balances().iter().map(balance::object))?;
     write_list(out, "grids", found.sensors.iter().filter_map(grid))?;
-    write_list(out, "statistics", found.statistics().iter().map(statistics))?;
+    write_list(
+        out,
+        "statistics",
+        gathered.statistics().iter().map(statistics),
+    )?;
     write!(out, "\n  \"stored\": ")?;
-    serde_json::to_writer(&mut *out, found)?;
+    write_stored(found, blocks, out)?;
     writeln!(out, "\n}}")
+}
+
+fn write_stored(
+    run: &Measurements,
+    blocks: &mut dyn Blocks,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let frame = serde_json::to_string(&run.without_points())?;
+    let mut stored = Stored::new(&frame, out);
+    blocks.each(&mut |block| {
+        let mut sensors = block.sensors.iter();
+        sensors.try_for_each(|sensor| stored.push(sensor))
+    })?;
+    stored.end()
+}
+
+/// Puts the points of sensors into the text of measurements that have none.
+///
+/// Quotes within texts are escaped, so that `NO_POINTS` stands there once a sensor and nowhere else.
+struct Stored<'o> {
+    between: std::str::Split<'o, &'static str>,
+    out: &'o mut dyn Write,
+    /// The sensor whose points are being written.
+    sensor: Option<String>,
+    is_empty: bool,
+    buffer: Vec<u8>,
+}
+
+const NO_POINTS: &str = "\"points\":[]";
+
+impl<'o> Stored<'o> {
+    fn new(frame: &'o str, out: &'o mut dyn Write) -> Self {
+        Self {
+            between: frame.split(NO_POINTS),
+            out,
+            sensor: None,
+            is_empty: true,
+            buffer: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, sensor: &SensorRecord) -> io::Result<()> {
+        if !(sensor.goes_on() && self.sensor.as_ref() == Some(&sensor.name)) {
+            self.write_between()?;
+            write!(self.out, "\"points\":[")?;
+            self.sensor = Some(sensor.name.clone());
+            self.is_empty = true;
+        }
+        for point in &sensor.points {
+            self.buffer.clear();
+            if !self.is_empty {
+                self.buffer.push(b',');
+            }
+            self.is_empty = false;
+            serde_json::to_writer(&mut self.buffer, point)?;
+            self.out.write_all(&self.buffer)?;
+        }
+        Ok(())
+    }
+
+    fn write_between(&mut self) -> io::Result<()> {
+        let close = if self.sensor.is_some() { "]" } else { "" };
+        write!(
+            self.out,
+            "{close}{}",
+            self.between.next().unwrap_or_default()
+        )
+    }
+
+    fn end(mut self) -> io::Result<()> {
+        self.write_between()
+    }
+}
+
+/// Objects on indented lines under a key.
+struct List<'o> {
+    out: &'o mut dyn Write,
+    is_empty: bool,
+}
+
+impl<'o> List<'o> {
+    fn begin(out: &'o mut dyn Write, key: &str) -> io::Result<Self> {
+        write!(out, "\n  \"{key}\": [")?;
+        let is_empty = true;
+        Ok(Self { out, is_empty })
+    }
+
+    fn push(&mut self, value: &Value) -> io::Result<()> {
+        let before = if self.is_empty { "" } else { "," };
+        self.is_empty = false;
+        write!(self.out, "{before}\n    {}", indented(value, "    "))
+    }
+
+    fn end(self) -> io::Result<()> {
+        let after = if self.is_empty { "" } else { "\n  " };
+        write!(self.out, "{after}],")
+    }
 }
 
 fn write_list(
     out: &mut dyn Write,
     key: &str,
-    values: impl Iterator<Item = Value>,
+    mut values: impl Iterator<Item = Value>,
 ) -> io::Result<()> {
-    write!(out, "\n  \"{key}\": [")?;
-    let (mut before, mut after) = ("", "");
-    for value in values {
-        write!(out, "{before}\n    {}", indented(&value, "    "))?;
-        (before, after) = (",", "\n  ");
-    }
-    write!(out, "{after}],")
+    let mut list = List::begin(out, key)?;
+    values.try_for_each(|value| list.push(&value))?;
+    list.end()
 }
 
 /// On lines of which all but the first are moved to the right.
@@ -83,6 +207,11 @@ fn indented(value: &Value, by: &str) -> String {
 
 /// What belongs to the run as a whole.
 pub fn facts(run: &Run<'_>) -> Map<String, Value> {
+    facts_if(run, run.measurements.converged())
+}
+
+/// The same where it is known whether every tolerance was met.
+pub(super) fn facts_if(run: &Run<'_>, converged: bool) -> Map<String, Value> {
     let measurements = run.measurements;
     let over = measurements.dimming.interval().map(|interval| {
         json!({
@@ -100,7 +229,7 @@ pub fn facts(run: &Run<'_>) -> Map<String, Value> {
         ("luminous_efficacy", json!(measurements.luminous_efficacy)),
         ("max_depth", json!(measurements.max_depth)),
         ("complete", json!(measurements.complete())),
-        ("converged", json!(measurements.converged())),
+        ("converged", json!(converged)),
         ("unsampled", json!(measurements.unsampled)),
         ("warnings", json!(measurements.warnings)),
         ("at", json!(measurements.dimming.moment().map(seconds))),
@@ -240,6 +369,18 @@ mod tests {
         let open = format!("{whole:#}");
         let open = open.strip_suffix("\n}").unwrap();
         assert_eq!(text, format!("{open},\n  \"stored\": {stored}\n}}\n"));
+    }
+
+    /// Sensors without points, and names that look like what points are put in place of.
+    #[test]
+    fn what_is_stored_is_what_the_measurements_are() {
+        let mut found = measurements();
+        found.sensors.push(found.without_points().sensors.remove(0));
+        found.sensors[1].name = format!("a {NO_POINTS} b");
+        found.scene_name = NO_POINTS.to_owned();
+        let text = encode(&run(&found)).unwrap();
+        let stored = serde_json::to_string(&found).unwrap();
+        assert!(text.ends_with(&format!("  \"stored\": {stored}\n}}\n")));
     }
 
     #[test]

@@ -162,6 +162,7 @@ fn progress(standing: &Standing, now: Duration) -> Progress {
         phase,
         samples,
         planned,
+        finished: samples as f64 / planned.max(1) as f64,
         elapsed: now,
         remaining,
         relative_error,

@@ -79,6 +79,12 @@ impl Estimate {
         }
     }
 
+    /// Whether it was sampled and nothing was found.
+    #[must_use]
+    pub fn is_dark(&self) -> bool {
+        self.value == 0.0 && self.std_error.is_infinite()
+    }
+
     /// This estimate plus a part known exactly.
     #[must_use]
     pub fn plus_exact(self, exact: f64) -> Self {

@@ -50,7 +50,7 @@ pub use integrand::{BATCH, Integrand, Run, SampleBatch};
 pub use jackknife::jackknife;
 pub use plan::{Plan, Stopping};
 pub use progress::{Observer, Phase, Progress, Silent};
-pub use replicates::Replicates;
+pub use replicates::{LargestSamples, Replicates};
 pub use shards::merge_shards;
 pub use stopping::estimate;
 pub use tally::Tally;

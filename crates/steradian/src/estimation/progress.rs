@@ -57,11 +57,13 @@ pub struct Progress {
     pub samples: u64,
     /// Samples this phase will take; in a pilot or a timed run, as far as known by now.
     pub planned: u64,
+    /// The part of this phase that is done; where points are measured in blocks, the part of all points.
+    pub finished: f64,
     /// Time since the start.
     pub elapsed: Duration,
-    /// Estimated time to the end of this phase, once there is something to judge by.
+    /// Estimated time to the end of this phase, or of all blocks, once there is something to judge by.
     pub remaining: Option<Duration>,
     /// The largest half-width of a stream's interval, relative to the value (or to 1 % of the sensor's mean if that is larger),
-    /// once every stream has one.
+    /// once every stream of the block has one.
     pub relative_error: Option<f64>,
 }

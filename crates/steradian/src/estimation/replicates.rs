@@ -158,17 +158,29 @@ fn dot(sums: &[f64], weights: &[f64]) -> f64 {
 
 /// Tells every stream the largest sample of its sensor.
 pub(super) fn share_largest(streams: &mut [Replicates]) {
-    let sensors = streams
-        .iter()
-        .map(|stream| stream.sensor + 1)
-        .max()
-        .unwrap_or(0);
-    let mut largest = vec![0.0_f64; sensors];
-    for stream in streams.iter() {
-        largest[stream.sensor] = largest[stream.sensor].max(stream.largest);
+    let mut largest = LargestSamples::default();
+    streams.iter().for_each(|stream| largest.see(stream));
+    streams.iter_mut().for_each(|stream| largest.tell(stream));
+}
+
+/// The largest sample of each sensor of a run: what bounds the streams in which nothing was seen.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LargestSamples(Vec<f64>);
+
+impl LargestSamples {
+    /// Takes notice of a stream.
+    pub fn see(&mut self, stream: &Replicates) {
+        if self.0.len() <= stream.sensor {
+            self.0.resize(stream.sensor + 1, 0.0);
+        }
+        let largest = &mut self.0[stream.sensor];
+        *largest = largest.max(stream.largest);
     }
-    for stream in streams {
-        stream.largest_of_sensor = largest[stream.sensor];
+
+    /// Tells a stream what was seen of its sensor.
+    pub fn tell(&self, stream: &mut Replicates) {
+        let largest = self.0.get(stream.sensor);
+        stream.largest_of_sensor = largest.copied().unwrap_or(0.0);
     }
 }
 

@@ -26,7 +26,7 @@ impl Measurements {
         Ok(whole)
     }
 
-    fn points_mut(&mut self) -> impl Iterator<Item = &mut PointRecord> {
+    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut PointRecord> {
         self.sensors
             .iter_mut()
             .flat_map(|sensor| &mut sensor.points)

@@ -14,30 +14,72 @@ pub(super) struct Resampled {
     whole: Vec<f64>,
     /// By replicate left out, by point; empty if nothing was sampled.
     without: Vec<Vec<f64>>,
-    converged: bool,
-    /// Sampled, but nothing was seen anywhere.
-    unseen: bool,
+    sampling: Sampling,
 }
 
 /// One point: its exact part and the mean of each replicate.
-struct Row {
+pub(super) struct Row {
     exact: f64,
-    means: Option<Vec<f64>>,
-    converged: bool,
+    pub means: Option<Vec<f64>>,
+    pub converged: bool,
+}
+
+/// How a number of several points was sampled.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sampling {
+    /// Any of them was.
+    pub any: bool,
+    /// Something was seen.
+    pub seen: bool,
+    pub converged: bool,
+}
+
+impl Sampling {
+    /// Of no points.
+    pub const NONE: Self = Self {
+        any: false,
+        seen: false,
+        converged: true,
+    };
+
+    /// Of these points and one more.
+    pub fn and(self, row: &Row) -> Self {
+        let means = row.means.as_deref();
+        Self {
+            any: self.any || means.is_some(),
+            seen: self.seen || means.is_some_and(|means| means.iter().any(|mean| *mean != 0.0)),
+            converged: self.converged && row.converged,
+        }
+    }
+
+    fn or(self, other: Self) -> Self {
+        Self {
+            any: self.any || other.any,
+            seen: self.seen || other.seen,
+            converged: self.converged && other.converged,
+        }
+    }
+
+    /// A number with its error, from what it is with each replicate left out.
+    pub fn estimate(self, value: f64, without: &[f64], confidence: f64) -> Estimate {
+        if !self.any {
+            return Estimate::closed_form(value);
+        }
+        let known = if self.seen { without } else { &[] };
+        jackknife(value, known, confidence, self.converged).widened(ROUNDING * value.abs())
+    }
 }
 
 impl Resampled {
     fn new(rows: &[Row]) -> Self {
-        let whole = rows.iter().map(|row| row.exact + row.mean()).collect();
+        let whole = rows.iter().map(Row::value).collect();
         let sampled = || rows.iter().filter_map(|row| row.means.as_ref());
         let replicates = sampled().map(Vec::len).min().unwrap_or(0);
         let without = |left_out: usize| rows.iter().map(|row| row.without(left_out)).collect();
-        let is_dark = sampled().flatten().all(|mean| *mean == 0.0);
         Self {
             whole,
             without: (0..replicates).map(without).collect(),
-            converged: rows.iter().all(|row| row.converged),
-            unseen: sampled().next().is_some() && is_dark,
+            sampling: rows.iter().fold(Sampling::NONE, Sampling::and),
         }
     }
 
@@ -67,31 +109,31 @@ impl Resampled {
         Self {
             whole: sum(None),
             without: (0..replicates).map(|r| sum(Some(r))).collect(),
-            converged: all().all(|part| part.converged),
-            unseen: all().all(|part| part.unseen),
+            sampling: all().fold(Sampling::NONE, |sum, part| sum.or(part.sampling)),
         }
     }
 
     /// A function of the readings, with its error.
     pub fn estimate(&self, confidence: f64, function: impl Fn(&[f64]) -> f64) -> Estimate {
-        let value = function(&self.whole);
-        if self.without.is_empty() {
-            return Estimate::closed_form(value);
-        }
         let without: Vec<f64> = self.without.iter().map(|values| function(values)).collect();
-        let known = if self.unseen { &[] } else { &without[..] };
-        let found = jackknife(value, known, confidence, self.converged);
-        found.widened(ROUNDING * value.abs())
+        let value = function(&self.whole);
+        self.sampling.estimate(value, &without, confidence)
     }
 }
 
 impl Row {
+    /// The reading.
+    pub fn value(&self) -> f64 {
+        self.exact + self.mean()
+    }
+
     fn mean(&self) -> f64 {
         let means = self.means.as_deref().unwrap_or(&[]);
         means.iter().sum::<f64>() / means.len().max(1) as f64
     }
 
-    fn without(&self, left_out: usize) -> f64 {
+    /// The reading with this replicate left out.
+    pub fn without(&self, left_out: usize) -> f64 {
         let Some(means) = &self.means else {
             return self.exact;
         };
@@ -108,17 +150,20 @@ impl Measurements {
         points: &[PointRecord],
         weight: impl Fn(usize, usize) -> f64,
     ) -> Resampled {
+        let rows = points.iter().map(|point| self.row(point, &weight));
+        Resampled::new(&rows.collect::<Vec<_>>())
+    }
+
+    /// The same at one point.
+    pub(super) fn row(&self, point: &PointRecord, weight: impl Fn(usize, usize) -> f64) -> Row {
         let weight = |group, lane| self.dimming.factor(group) * weight(group, lane);
-        let row = |point: &PointRecord| {
-            let (exact, open) = self.weighted(point, weight);
-            let sampled = point.replicates.as_ref();
-            let sampled = sampled.filter(|_| open.iter().any(|weight| *weight != 0.0));
-            Row {
-                exact,
-                means: sampled.map(|replicates| replicates.means(&open).collect()),
-                converged: sampled.is_none_or(Replicates::converged),
-            }
-        };
-        Resampled::new(&points.iter().map(row).collect::<Vec<_>>())
+        let (exact, open) = self.weighted(point, weight);
+        let sampled = point.replicates.as_ref();
+        let sampled = sampled.filter(|_| open.iter().any(|weight| *weight != 0.0));
+        Row {
+            exact,
+            means: sampled.map(|replicates| replicates.means(&open).collect()),
+            converged: sampled.is_none_or(Replicates::converged),
+        }
     }
 }

@@ -15,9 +15,8 @@
 
 use serde::Serialize;
 
-use super::{Measurements, SensorRecord};
+use super::{Gathered, Measurements};
 use crate::estimation::Estimate;
-use crate::sensor::Readout;
 
 /// What the points of a sensor have in common.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -58,47 +57,7 @@ pub struct Extreme {
 impl Measurements {
     /// The statistics of every quantity of each sensor that has several points.
     pub fn statistics(&self) -> Vec<Statistics> {
-        let sensors = self.sensors.iter().filter(|sensor| sensor.points.len() > 1);
-        let of_sensor = |sensor| self.statistics_of(sensor);
-        sensors.flat_map(of_sensor).collect()
-    }
-
-    fn statistics_of(&self, sensor: &SensorRecord) -> Vec<Statistics> {
-        let quantities = sensor.quantities.iter();
-        let of_quantity = |quantity| self.statistics_of_quantity(sensor, quantity);
-        quantities.map(of_quantity).collect()
-    }
-
-    fn statistics_of_quantity(&self, sensor: &SensorRecord, quantity: &Readout) -> Statistics {
-        let readings = self.resampled(&sensor.points, |_, lane| quantity.weights[lane]);
-        let estimate = |function: fn(&[f64]) -> f64| readings.estimate(self.confidence, function);
-        let extreme = |find: fn(&[f64]) -> usize, function| {
-            let point = &sensor.points[find(readings.values(None))];
-            Extreme {
-                index: point.index,
-                position: point.position,
-                estimate: estimate(function),
-            }
-        };
-        let ratio = |below: f64, function| (below != 0.0).then(|| estimate(function));
-        let whole = readings.values(None);
-        let share = |name: &String| {
-            let own = self.share_of(name, quantity);
-            let readings = self.resampled(&sensor.points, own);
-            (name.clone(), readings.estimate(self.confidence, mean))
-        };
-        Statistics {
-            sensor: sensor.name.clone(),
-            quantity: quantity.name.clone(),
-            unit: quantity.unit.clone(),
-            points: sensor.points.len(),
-            mean: estimate(mean),
-            min: extreme(lowest, least),
-            max: extreme(highest, greatest),
-            uniformity: ratio(mean(whole), |values| least(values) / mean(values)),
-            diversity: ratio(greatest(whole), |values| least(values) / greatest(values)),
-            groups: self.group_names().into_iter().map(share).collect(),
-        }
+        Gathered::of(self).statistics()
     }
 }
 
@@ -114,14 +73,6 @@ pub(super) fn lowest(values: &[f64]) -> usize {
 /// Number of the greatest value, the first of equal ones.
 pub(super) fn highest(values: &[f64]) -> usize {
     (0..values.len()).fold(0, |best, i| if values[i] > values[best] { i } else { best })
-}
-
-fn least(values: &[f64]) -> f64 {
-    values[lowest(values)]
-}
-
-fn greatest(values: &[f64]) -> f64 {
-    values[highest(values)]
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use super::scattering::{self, Encounter};
 use super::tables::{Candidates, Choice, Model, Receiver, Tables};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
 use crate::sampling::{block, hash, warp};
-use crate::scene::Scene;
+use crate::sensor::Sensor;
 use crate::spectrum::WavelengthDensity;
 
 /// Block of the direction in which a meter looks, out of the way of the blocks of a path's segments.
@@ -34,15 +34,15 @@ pub(super) struct Stream<'a> {
     pub offset: f64,
 }
 
-/// All streams of a run.
+/// All streams of a block.
 pub(super) struct Meters<'a> {
     tracer: Tracer<'a>,
     streams: Vec<Stream<'a>>,
     /// Of the columns, by sensor.
-    weights: Vec<Vec<f64>>,
+    weights: &'a [Vec<f64>],
     columns: usize,
     /// Of wavelengths, by sensor; none unless the run is spectral.
-    densities: Vec<WavelengthDensity>,
+    densities: &'a [WavelengthDensity],
 }
 
 /// Paths that start alike.
@@ -91,8 +91,7 @@ impl<'a> Meters<'a> {
         tables: &'a Tables<'a>,
         options: &MeasureOptions,
         streams: Vec<Stream<'a>>,
-        weights: Vec<Vec<f64>>,
-        densities: Vec<WavelengthDensity>,
+        (weights, densities): (&'a [Vec<f64>], &'a [WavelengthDensity]),
     ) -> Self {
         let tracer = Tracer {
             tables,
@@ -409,25 +408,29 @@ fn leave_over_sphere(paths: &mut Workspace) {
     }
 }
 
-/// The streams of a run and where each belongs.
-pub(super) fn streams<'a>(
-    scene: &Scene,
-    prepared: &mut [(usize, Vec<Prepared<'a>>)],
-    weights: &[Vec<f64>],
-) -> Vec<Stream<'a>> {
+/// The readings of some points of a sensor.
+pub(super) struct Part<'a> {
+    /// Which of the chosen sensors.
+    pub position: usize,
+    pub sensor: &'a Sensor,
+    pub readings: Vec<Prepared<'a>>,
+}
+
+/// The streams of readings, in their order.
+pub(super) fn streams<'a>(parts: &mut [Part<'a>], weights: &[Vec<f64>]) -> Vec<Stream<'a>> {
     let mut streams = Vec::new();
-    for (position, (sensor, readings)) in prepared.iter_mut().enumerate() {
-        let name = hash::key_of_name(&scene.sensors()[*sensor].name);
-        for reading in readings {
+    for part in parts {
+        let name = hash::key_of_name(&part.sensor.name);
+        for reading in &mut part.readings {
             let Some(meter) = reading.meter.take() else {
                 continue;
             };
-            let weights = weights[position].iter().zip(&reading.exact);
+            let weights = weights[part.position].iter().zip(&reading.exact);
             let offset = weights.map(|(w, x)| w * x).sum();
             let key = hash::combine(name, reading.index as u64);
-            reading.stream = Some(streams.len());
+            reading.is_sampled = true;
             streams.push(Stream {
-                sensor: position,
+                sensor: part.position,
                 key,
                 meter,
                 offset,

@@ -12,6 +12,8 @@
 //! that nothing [may hide](super::shaft). A ray sees the emission of the surface it meets exactly. What surfaces reflect is
 //! sampled.
 
+use std::ops::Range;
+
 use steradian_kernel::{HitBatch, MISS, RayBatch};
 
 use super::columns::Place;
@@ -73,10 +75,10 @@ pub(super) struct Prepared<'a> {
     pub exact: Vec<f64>,
     /// Columns whose exact part is all there is.
     pub closed: Vec<bool>,
-    /// What is left to sample.
+    /// What is left to sample, until a stream takes it.
     pub meter: Option<Meter<'a>>,
-    /// The stream that samples it.
-    pub stream: Option<usize>,
+    /// Whether a stream samples it.
+    pub is_sampled: bool,
 }
 
 impl Prepared<'_> {
@@ -91,38 +93,8 @@ impl Prepared<'_> {
             exact,
             closed,
             meter: None,
-            stream: None,
+            is_sampled: false,
         }
-    }
-}
-
-/// Prepares all readings of a sensor.
-pub(super) fn prepare<'a>(
-    tables: &Tables<'a>,
-    sensor: &'a Sensor,
-    max_depth: u32,
-) -> Vec<Prepared<'a>> {
-    let context = Context::new(tables, max_depth);
-    match &sensor.kind {
-        Kind::Irradiance(receivers) => receivers
-            .iter()
-            .enumerate()
-            .map(|(i, receiver)| context.irradiance(i, receiver))
-            .collect(),
-        Kind::ScalarIrradiance(points) => points
-            .iter()
-            .enumerate()
-            .map(|(i, point)| context.scalar(i, *point))
-            .collect(),
-        Kind::Cylindrical(cylinders) => cylinders
-            .iter()
-            .enumerate()
-            .map(|(i, cylinder)| context.cylinder(i, cylinder))
-            .collect(),
-        Kind::Radiance(rays) => context.radiance(rays),
-        Kind::Flux { surface, of, .. } => vec![context.flux(surface, *of)],
-        Kind::Balance(accounts) => context.accounts(accounts),
-        Kind::Camera(_) => vec![],
     }
 }
 
@@ -139,7 +111,7 @@ pub(super) struct Context<'t, 'a> {
 }
 
 impl<'t, 'a> Context<'t, 'a> {
-    fn new(tables: &'t Tables<'a>, max_depth: u32) -> Self {
+    pub fn new(tables: &'t Tables<'a>, max_depth: u32) -> Self {
         let scene = tables.scene;
         let mut context = Context {
             tables,
@@ -158,6 +130,29 @@ impl<'t, 'a> Context<'t, 'a> {
         context.reflected = lights.map(|light| context.reflected(light)).collect();
         context.dark = context.columns_where(|_| true);
         context
+    }
+
+    /// Prepares some readings of a sensor, which are those of its points where it has points.
+    pub fn prepare(&self, sensor: &'a Sensor, points: Range<usize>) -> Vec<Prepared<'a>> {
+        let first = points.start;
+        match &sensor.kind {
+            Kind::Irradiance(receivers) => (first..)
+                .zip(&receivers[points])
+                .map(|(i, receiver)| self.irradiance(i, receiver))
+                .collect(),
+            Kind::ScalarIrradiance(all) => (first..)
+                .zip(&all[points])
+                .map(|(i, point)| self.scalar(i, *point))
+                .collect(),
+            Kind::Cylindrical(cylinders) => (first..)
+                .zip(&cylinders[points])
+                .map(|(i, cylinder)| self.cylinder(i, cylinder))
+                .collect(),
+            Kind::Radiance(rays) => self.radiance(first, &rays[points]),
+            Kind::Flux { surface, of, .. } => vec![self.flux(surface, *of)],
+            Kind::Balance(accounts) => self.accounts(accounts),
+            Kind::Camera(_) => vec![],
+        }
     }
 
     /// For each channel, whether a surface other than a light's own may reflect it: a flat or convex one does not light itself,
@@ -265,7 +260,7 @@ impl<'t, 'a> Context<'t, 'a> {
                 .then_some(Meter::Irradiance { place, known }),
             exact,
             closed,
-            stream: None,
+            is_sampled: false,
         }
     }
 
@@ -289,7 +284,7 @@ impl<'t, 'a> Context<'t, 'a> {
                 .then_some(Meter::Scalar { place, known }),
             exact,
             closed,
-            stream: None,
+            is_sampled: false,
         }
     }
 
@@ -309,11 +304,11 @@ impl<'t, 'a> Context<'t, 'a> {
                 .then_some(Meter::Cylinder(meter)),
             exact,
             closed,
-            stream: None,
+            is_sampled: false,
         }
     }
 
-    fn radiance(&self, rays: &[(Point, Direction)]) -> Vec<Prepared<'a>> {
+    fn radiance(&self, first: usize, rays: &[(Point, Direction)]) -> Vec<Prepared<'a>> {
         let surfaces = self.scene.surfaces();
         let (mut batch, mut hits) = (RayBatch::default(), HitBatch::default());
         for (origin, direction) in rays {
@@ -332,7 +327,7 @@ impl<'t, 'a> Context<'t, 'a> {
             let mut exact = vec![0.0; self.columns()];
             let meter = self.first_surface((&batch, *direction), &hits, index, &mut exact);
             Prepared {
-                index,
+                index: first + index,
                 position: Some(*origin),
                 normal: Some(*direction),
                 sits_on: None,
@@ -340,7 +335,7 @@ impl<'t, 'a> Context<'t, 'a> {
                 exact,
                 closed: self.dark.clone(),
                 meter,
-                stream: None,
+                is_sampled: false,
             }
         };
         rays.iter().enumerate().map(ray).collect()

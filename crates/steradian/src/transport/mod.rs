@@ -5,6 +5,7 @@
 
 mod aim;
 mod appearance;
+mod blocks;
 mod branching;
 mod camera;
 mod channels;
@@ -36,6 +37,7 @@ mod towards;
 mod transmittance;
 mod unsampled;
 
+pub use blocks::{Ended, POINTS_OF_A_BLOCK, measure, measure_in_blocks};
 pub use profile::{Stage, StageTimes, profile};
-pub use run::{MeasureOptions, Picture, RenderOptions, SimulationError, measure, render};
+pub use run::{MeasureOptions, Picture, RenderOptions, SimulationError, render};
 pub use unsampled::unsampled;

@@ -4,16 +4,14 @@ use serde::{Deserialize, Serialize};
 use steradian_kernel::InstructionSet;
 use thiserror::Error;
 
+use super::blocks::POINTS_OF_A_BLOCK;
 use super::camera::CameraSampler;
 use super::channels;
-use super::measure::{Meters, streams};
-use super::meters::{self, Prepared};
 use super::path::Tracer;
 use super::tables::Tables;
 use super::unsampled::unsampled;
 use crate::estimation::film::{Exposure, Film, Filter, PASSES, expose};
-use crate::estimation::{EstimationError, Observer, Plan, Replicates, Stopping, estimate};
-use crate::measurement::{Dimming, LaneRecord, Measurements, PointRecord, SensorRecord};
+use crate::estimation::{EstimationError, Observer, Plan, Stopping};
 use crate::sampling::hash;
 use crate::scene::{CAMERA_CHANNELS, Scene};
 use crate::sensor::{Camera, Kind, Readout, Sensor};
@@ -29,6 +27,8 @@ pub struct MeasureOptions {
     pub instruction_set: InstructionSet,
     /// Names of the sensors to read; `None` is all.
     pub sensors: Option<Vec<String>>,
+    /// Points in work at a time: see [`POINTS_OF_A_BLOCK`].
+    pub points_of_a_block: usize,
 }
 
 impl Default for MeasureOptions {
@@ -38,6 +38,7 @@ impl Default for MeasureOptions {
             max_depth: None,
             instruction_set: InstructionSet::detect(),
             sensors: None,
+            points_of_a_block: POINTS_OF_A_BLOCK,
         }
     }
 }
@@ -216,46 +217,11 @@ fn film(scene: &Scene, camera: &Sensor, [width, height]: [u32; 2], filter: Filte
     }
 }
 
-/// Reads the sensors of a scene (all but cameras).
-pub fn measure(
+/// Numbers of the sensors of these names, or of all that are no cameras.
+pub(super) fn chosen_sensors(
     scene: &Scene,
-    options: &MeasureOptions,
-    observer: &mut dyn Observer,
-) -> Result<Measurements, SimulationError> {
-    let tables = Tables::new(scene);
-    let chosen = chosen_sensors(scene, options.sensors.as_deref())?;
-    let depth = options.max_depth.unwrap_or(u32::MAX);
-    let prepare = |&sensor: &usize| {
-        (
-            sensor,
-            meters::prepare(&tables, &scene.sensors()[sensor], depth),
-        )
-    };
-    let mut prepared: Vec<(usize, Vec<Prepared>)> = chosen.iter().map(prepare).collect();
-    let readouts = |sensor: &usize| &scene.sensors()[*sensor].readouts;
-    let weights: Vec<_> = chosen
-        .iter()
-        .map(|sensor| scalar_weights(scene, readouts(sensor)))
-        .collect();
-    let streams = streams(scene, &mut prepared, &weights);
-    let densities = chosen
-        .iter()
-        .filter_map(|sensor| channels::density(scene, &scene.sensors()[*sensor]))
-        .collect();
-    let replicates = if streams.is_empty() {
-        options.plan.check()?;
-        vec![]
-    } else {
-        estimate(
-            &Meters::new(&tables, options, streams, weights, densities),
-            &options.plan,
-            observer,
-        )?
-    };
-    Ok(record(scene, options, prepared, &replicates))
-}
-
-fn chosen_sensors(scene: &Scene, names: Option<&[String]>) -> Result<Vec<usize>, SimulationError> {
+    names: Option<&[String]>,
+) -> Result<Vec<usize>, SimulationError> {
     let is_meter = |index: &usize| !matches!(scene.sensors()[*index].kind, Kind::Camera(_));
     let Some(names) = names else {
         let all: Vec<_> = (0..scene.sensors().len()).filter(is_meter).collect();
@@ -295,69 +261,5 @@ fn unknown(scene: &Scene, name: &str) -> SimulationError {
     SimulationError::UnknownSensor {
         name: name.into(),
         known: known.join(", "),
-    }
-}
-
-/// Weights of the columns in the scalar that tolerances are about: the first readout, all groups.
-fn scalar_weights(scene: &Scene, readouts: &[Readout]) -> Vec<f64> {
-    let lanes = readouts.first().map_or_else(
-        || scene.lanes().radiant_weights(),
-        |readout| readout.weights.clone(),
-    );
-    (0..scene.columns())
-        .map(|column| lanes[column % lanes.len()])
-        .collect()
-}
-
-fn record(
-    scene: &Scene,
-    options: &MeasureOptions,
-    prepared: Vec<(usize, Vec<Prepared>)>,
-    replicates: &[Replicates],
-) -> Measurements {
-    let sensors = prepared.into_iter().map(|(sensor, readings)| {
-        let sensor = &scene.sensors()[sensor];
-        let points = readings
-            .into_iter()
-            .map(|reading| point(reading, replicates))
-            .collect();
-        SensorRecord {
-            name: sensor.name.clone(),
-            quantities: sensor.readouts.clone(),
-            layout: sensor.layout,
-            points,
-        }
-    });
-    Measurements {
-        scene_name: scene.name().into(),
-        seed: options.plan.seed,
-        confidence: options.plan.confidence,
-        luminous_efficacy: scene.reported_efficacy(),
-        max_depth: options.max_depth,
-        lanes: scene
-            .lanes()
-            .names()
-            .iter()
-            .map(|name| LaneRecord { name: name.clone() })
-            .collect(),
-        groups: scene.groups().to_vec(),
-        dimming: Dimming::new(scene.schedules().to_vec()),
-        sensors: sensors.collect(),
-        unsampled: unsampled(scene),
-        warnings: scene.warnings().to_vec(),
-        shard: options.plan.shard,
-    }
-}
-
-fn point(reading: Prepared, replicates: &[Replicates]) -> PointRecord {
-    PointRecord {
-        index: reading.index,
-        position: reading.position.map(|point| point.to_array()),
-        normal: reading.normal.map(|normal| normal.to_array()),
-        sits_on: reading.sits_on,
-        about: reading.about,
-        exact: reading.exact,
-        closed: reading.closed,
-        replicates: reading.stream.map(|stream| replicates[stream].clone()),
     }
 }

@@ -119,7 +119,7 @@ impl<'a> Sink<'a> {
     fn write(&mut self, text: &str) -> Result<(), Failure> {
         match &mut self.stream {
             Stream::Standard => Ok(stdout().lock().write_all(text.as_bytes())?),
-            Stream::File(file) => Ok(file.write(text.as_bytes())?),
+            Stream::File(file) => Ok(file.append(text.as_bytes())?),
             Stream::None => Ok(()),
         }
     }

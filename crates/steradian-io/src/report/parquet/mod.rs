@@ -21,7 +21,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{Type, TypePtr};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use steradian::measurement::Measurements;
 
 use self::row_group::RowGroup;
@@ -46,21 +46,63 @@ fn encode_in_groups(
     cells: usize,
     sink: impl Write + Send,
 ) -> Result<(), ReportError> {
-    let parts = Parts::of(run.measurements);
-    let schema = schema(&parts)?;
-    let rows_in_group = (cells / schema.get_fields().len()).max(1);
-    let mut writer = SerializedFileWriter::new(sink, schema, Arc::new(properties(run)))?;
-    let mut group = RowGroup::new(&parts);
-    for reading in run.measurements.iter_readings() {
-        rows(&reading).for_each(|row| group.push(&row));
-        if group.len() >= rows_in_group {
-            group.write(&mut writer)?;
-            group = RowGroup::new(&parts);
-        }
+    let mut writer = Writer::with_cells(run, cells, sink)?;
+    writer.block(run.measurements)?;
+    writer.finish(&json::facts(run)).map(drop)
+}
+
+/// Writes readings block by block.
+pub struct Writer<W: Write + Send> {
+    parts: Parts,
+    rows_in_group: usize,
+    group: RowGroup,
+    file: SerializedFileWriter<W>,
+}
+
+impl<W: Write + Send> Writer<W> {
+    /// Begins a file with the columns that these measurements, or a block of them, have.
+    ///
+    /// # Errors
+    /// As [`encode`].
+    pub fn new(run: &Run<'_>, sink: W) -> Result<Self, ReportError> {
+        Self::with_cells(run, CELLS_IN_MEMORY, sink)
     }
-    group.write(&mut writer)?;
-    writer.close()?;
-    Ok(())
+
+    fn with_cells(run: &Run<'_>, cells: usize, sink: W) -> Result<Self, ReportError> {
+        let parts = Parts::of(run.measurements);
+        let schema = schema(&parts)?;
+        Ok(Self {
+            rows_in_group: (cells / schema.get_fields().len()).max(1),
+            group: RowGroup::new(&parts),
+            file: SerializedFileWriter::new(sink, schema, Arc::new(properties(run.version)))?,
+            parts,
+        })
+    }
+
+    /// Adds the readings of the next block.
+    ///
+    /// # Errors
+    /// If the sink refuses.
+    pub fn block(&mut self, block: &Measurements) -> Result<(), ReportError> {
+        for reading in block.iter_readings() {
+            rows(&reading).for_each(|row| self.group.push(&self.parts, &row));
+            if self.group.len() >= self.rows_in_group {
+                self.group.write(&mut self.file)?;
+                self.group = RowGroup::new(&self.parts);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what is left, with the facts about the run, and gives the sink back.
+    ///
+    /// # Errors
+    /// If the sink refuses.
+    pub fn finish(mut self, facts: &Map<String, Value>) -> Result<W, ReportError> {
+        self.group.write(&mut self.file)?;
+        metadata(facts).for_each(|pair| self.file.append_key_value_metadata(pair));
+        Ok(self.file.into_inner()?)
+    }
 }
 
 /// Names of what values are made of.
@@ -118,24 +160,28 @@ fn field(name: &str) -> Result<Type, ParquetError> {
     }
 }
 
-fn properties(run: &Run<'_>) -> WriterProperties {
-    let facts = json::facts(run).into_iter();
-    let metadata = facts.filter_map(|(key, fact)| match fact {
-        Value::Null => None,
-        Value::String(text) => Some(KeyValue::new(key, text)),
-        fact => Some(KeyValue::new(key, fact.to_string())),
-    });
+fn properties(version: &str) -> WriterProperties {
     WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
-        .set_created_by(format!("steradian version {}", run.version))
-        .set_key_value_metadata(Some(metadata.collect()))
+        .set_created_by(format!("steradian version {version}"))
         .build()
+}
+
+fn metadata(facts: &Map<String, Value>) -> impl Iterator<Item = KeyValue> {
+    facts.iter().filter_map(|(key, fact)| match fact {
+        Value::Null => None,
+        Value::String(text) => Some(KeyValue::new(key.clone(), text.clone())),
+        fact => Some(KeyValue::new(key.clone(), fact.to_string())),
+    })
 }
 
 impl From<ParquetError> for ReportError {
     fn from(error: ParquetError) -> Self {
         match error {
-            ParquetError::External(source) => Self::Encoding(source.to_string()),
+            ParquetError::External(source) => match source.downcast() {
+                Ok(refused) => Self::Output(*refused),
+                Err(source) => Self::Encoding(source.to_string()),
+            },
             error => Self::Encoding(error.to_string()),
         }
     }

@@ -11,8 +11,7 @@ use super::super::rows::{Row, finite};
 use super::Parts;
 
 /// Rows by column.
-pub struct RowGroup<'a> {
-    parts: &'a Parts,
+pub struct RowGroup {
     sensors: Vec<ByteArray>,
     indices: Vec<i64>,
     vectors: [Numbers; 6],
@@ -39,11 +38,10 @@ impl Numbers {
     }
 }
 
-impl<'a> RowGroup<'a> {
+impl RowGroup {
     /// No rows yet.
-    pub fn new(parts: &'a Parts) -> Self {
+    pub fn new(parts: &Parts) -> Self {
         Self {
-            parts,
             sensors: Vec::new(),
             indices: Vec::new(),
             vectors: Default::default(),
@@ -60,8 +58,8 @@ impl<'a> RowGroup<'a> {
         self.indices.len()
     }
 
-    /// Adds a row.
-    pub fn push(&mut self, row: &Row<'_>) {
+    /// Adds a row with these parts.
+    pub fn push(&mut self, parts: &Parts, row: &Row<'_>) {
         self.sensors.push(row.reading.sensor.as_str().into());
         self.indices.push(row.reading.index as i64);
         push_all(&mut self.vectors, row.vectors());
@@ -69,7 +67,7 @@ impl<'a> RowGroup<'a> {
         self.units.push(row.unit.into());
         push_all(&mut self.numbers, row.numbers());
         self.converged.push(row.estimate.converged);
-        let shares = shares(self.parts, row);
+        let shares = shares(parts, row);
         push_all(&mut self.shares, shares);
     }
 

@@ -178,5 +178,5 @@ fn a_sink_that_refuses_is_told() {
     let measurements = measurements();
     let mut full = [0_u8; 64];
     let error = encode(&run(&measurements), &mut full[..]).unwrap_err();
-    assert!(error.to_string().starts_with("cannot encode: "), "{error}");
+    assert!(error.to_string().starts_with("cannot write: "), "{error}");
 }

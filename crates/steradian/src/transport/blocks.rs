@@ -1,0 +1,492 @@
+//! Measuring block by block, so that memory does not grow with the number of points.
+//!
+//! Points are cut into blocks of at most [`POINTS_OF_A_BLOCK`]. A block is prepared, estimated, handed on and forgotten. A sensor that
+//! fits stays whole; a larger one is cut into equal parts, each a block of its own. [`measure`] is the same with all blocks kept.
+//!
+//! With a number of samples the cut changes no bit of a reading, since random numbers belong to a point by its sensor and number; only the
+//! [upper bound](crate::estimation::Replicates::combine) of a dark one is made from the brightest sample of its block, until the blocks are
+//! put together. With a tolerance ε each block of a cut sensor is a sensor by itself: its floor, ε · 1 % of the mean, and the pooled
+//! variance of its pilot are those of the block. A time is shared out in proportion to points, and what one block leaves the others have.
+
+use std::ops::{ControlFlow, Range};
+use std::time::{Duration, Instant};
+
+use super::channels;
+use super::measure::{Meters, Part, streams};
+use super::meters::{Context, Prepared};
+use super::run::{MeasureOptions, SimulationError, chosen_sensors};
+use super::tables::Tables;
+use super::unsampled::unsampled;
+use crate::estimation::{Observer, Phase, Plan, Progress, Replicates, estimate};
+use crate::measurement::{
+    Dimming, LaneRecord, Measurements, PointRecord, SensorRecord, Unmeasured,
+};
+use crate::scene::Scene;
+use crate::sensor::{Kind, Readout};
+use crate::spectrum::WavelengthDensity;
+
+/// Points that are in work at a time unless asked otherwise: some 2 kB each, and three times that while a tolerance is looked for.
+pub const POINTS_OF_A_BLOCK: usize = 1 << 14;
+
+/// Reads the sensors of a scene (all but cameras).
+///
+/// # Errors
+/// If there is nothing to read, or a sample is not finite.
+pub fn measure(
+    scene: &Scene,
+    options: &MeasureOptions,
+    observer: &mut dyn Observer,
+) -> Result<Measurements, SimulationError> {
+    let mut whole: Option<Measurements> = None;
+    let ended = measure_in_blocks(scene, options, observer, &mut |block| {
+        match &mut whole {
+            Some(whole) => whole.append(block),
+            None => whole = Some(block),
+        }
+        Ok::<_, SimulationError>(())
+    })?;
+    if let Some(fault) = ended.fault {
+        return Err(fault);
+    }
+    let mut whole = whole.ok_or(SimulationError::NothingToDo("meter"))?;
+    whole.share_largest();
+    whole.leave_out(&ended.missing);
+    Ok(whole)
+}
+
+/// How far a run in blocks came.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ended {
+    /// Points of which there is no block.
+    pub missing: Vec<Unmeasured>,
+    /// Why they are missing, unless the observer ended the run.
+    pub fault: Option<SimulationError>,
+}
+
+/// Reads the sensors of a scene (all but cameras) and hands on the points of one block after the other, in order.
+///
+/// A block is what [`measure`] would give if the scene had no other points, but for their numbers. If the observer ends the run, the block
+/// in work is handed on as it is, and what is missing is told; so it is where a block fails after others were handed on.
+///
+/// # Errors
+/// As [`measure`] if no block was handed on, and those of `sink`.
+pub fn measure_in_blocks<E: From<SimulationError>>(
+    scene: &Scene,
+    options: &MeasureOptions,
+    observer: &mut dyn Observer,
+    sink: &mut dyn FnMut(Measurements) -> Result<(), E>,
+) -> Result<Ended, E> {
+    let chosen = chosen_sensors(scene, options.sensors.as_deref())?;
+    options.plan.check().map_err(SimulationError::from)?;
+    let sizes: Vec<_> = chosen.iter().map(|&sensor| size(scene, sensor)).collect();
+    let tables = Tables::new(scene);
+    let run = Run::new(scene, options, &tables, chosen);
+    let blocks = cut(&sizes, options.points_of_a_block.max(1));
+    let mut watch = Watch::new(observer, &blocks);
+    for (number, block) in blocks.iter().enumerate() {
+        let ended = |fault| Ended {
+            missing: run.unmeasured(&sizes, &blocks[number..]),
+            fault,
+        };
+        if watch.is_stopped() {
+            return Ok(ended(None));
+        }
+        match run.measure(block, &mut watch) {
+            Ok(measured) => sink(measured)?,
+            Err(fault) if number > 0 => return Ok(ended(Some(fault))),
+            Err(fault) => return Err(fault.into()),
+        }
+        watch.end();
+    }
+    Ok(Ended::default())
+}
+
+/// Points of a sensor, and whether it can be cut between them.
+#[derive(Clone, Copy)]
+struct Size {
+    points: usize,
+    can_be_cut: bool,
+}
+
+fn size(scene: &Scene, sensor: usize) -> Size {
+    let (points, can_be_cut) = match &scene.sensors()[sensor].kind {
+        Kind::Irradiance(receivers) => (receivers.len(), true),
+        Kind::ScalarIrradiance(points) => (points.len(), true),
+        Kind::Cylindrical(cylinders) => (cylinders.len(), true),
+        Kind::Radiance(rays) => (rays.len(), true),
+        Kind::Balance(accounts) => (accounts.len(), false),
+        Kind::Flux { .. } | Kind::Camera(_) => (1, false),
+    };
+    Size { points, can_be_cut }
+}
+
+/// Some points of a sensor.
+#[derive(Clone, Debug, PartialEq)]
+struct Piece {
+    /// Which of the chosen sensors.
+    position: usize,
+    points: Range<usize>,
+}
+
+fn points_of(block: &[Piece]) -> usize {
+    block.iter().map(|piece| piece.points.len()).sum()
+}
+
+/// Blocks of at most so many points, but for sensors that cannot be cut.
+fn cut(sizes: &[Size], most: usize) -> Vec<Vec<Piece>> {
+    let mut blocks: Vec<Vec<Piece>> = Vec::new();
+    let mut room = 0;
+    for (position, size) in sizes.iter().enumerate() {
+        let parts = if size.can_be_cut {
+            size.points.div_ceil(most).max(1)
+        } else {
+            1
+        };
+        for part in 0..parts {
+            let points = size.points * part / parts..size.points * (part + 1) / parts;
+            let piece = Piece { position, points };
+            match blocks.last_mut() {
+                Some(block) if size.points <= room => {
+                    room -= size.points;
+                    block.push(piece);
+                }
+                _ => {
+                    room = most.saturating_sub(piece.points.len());
+                    blocks.push(vec![piece]);
+                }
+            }
+        }
+    }
+    blocks
+}
+
+/// What all blocks of a run have in common.
+struct Run<'r, 'a> {
+    scene: &'a Scene,
+    options: &'r MeasureOptions,
+    tables: &'a Tables<'a>,
+    context: Context<'a, 'a>,
+    /// Numbers of the sensors to read.
+    chosen: Vec<usize>,
+    /// By chosen sensor.
+    weights: Vec<Vec<f64>>,
+    /// By chosen sensor; none unless the run is spectral.
+    densities: Vec<WavelengthDensity>,
+}
+
+impl<'r, 'a> Run<'r, 'a> {
+    fn new(
+        scene: &'a Scene,
+        options: &'r MeasureOptions,
+        tables: &'a Tables<'a>,
+        chosen: Vec<usize>,
+    ) -> Self {
+        let sensors = || chosen.iter().map(|sensor| &scene.sensors()[*sensor]);
+        let max_depth = options.max_depth.unwrap_or(u32::MAX);
+        Self {
+            context: Context::new(tables, max_depth),
+            weights: sensors()
+                .map(|sensor| scalar_weights(scene, &sensor.readouts))
+                .collect(),
+            densities: sensors()
+                .filter_map(|sensor| channels::density(scene, sensor))
+                .collect(),
+            scene,
+            options,
+            tables,
+            chosen,
+        }
+    }
+
+    fn measure(&self, block: &[Piece], watch: &mut Watch) -> Result<Measurements, SimulationError> {
+        let part = |piece: &Piece| {
+            let sensor = &self.scene.sensors()[self.chosen[piece.position]];
+            Part {
+                position: piece.position,
+                sensor,
+                readings: self.context.prepare(sensor, piece.points.clone()),
+            }
+        };
+        let mut parts: Vec<_> = block.iter().map(part).collect();
+        let streams = streams(&mut parts, &self.weights);
+        let plan = watch.begin(points_of(block), &self.options.plan);
+        let replicates = if streams.is_empty() {
+            vec![]
+        } else {
+            let shared = (&self.weights[..], &self.densities[..]);
+            let meters = Meters::new(self.tables, self.options, streams, shared);
+            estimate(&meters, &plan, watch)?
+        };
+        Ok(record(self.scene, self.options, parts, replicates))
+    }
+
+    /// What is in these blocks, by sensor.
+    fn unmeasured(&self, sizes: &[Size], blocks: &[Vec<Piece>]) -> Vec<Unmeasured> {
+        let missing = |(position, &sensor): (usize, &usize)| {
+            let own = blocks.iter().flatten();
+            let own = own.filter(|piece| piece.position == position);
+            Unmeasured {
+                sensor: self.scene.sensors()[sensor].name.clone(),
+                points: own.map(|piece| piece.points.len()).sum(),
+                of: sizes[position].points,
+            }
+        };
+        let missing = self.chosen.iter().enumerate().map(missing);
+        missing.filter(|missing| missing.points > 0).collect()
+    }
+}
+
+/// Shows an observer the run as a whole, and shares out its time.
+struct Watch<'o> {
+    observer: &'o mut dyn Observer,
+    start: Instant,
+    several: bool,
+    /// Points of the blocks that are done, of the one in work, and of all.
+    done: usize,
+    at_work: usize,
+    all: usize,
+    stopped: bool,
+}
+
+impl<'o> Watch<'o> {
+    fn new(observer: &'o mut dyn Observer, blocks: &[Vec<Piece>]) -> Self {
+        Self {
+            observer,
+            start: Instant::now(),
+            several: blocks.len() > 1,
+            done: 0,
+            at_work: 0,
+            all: blocks.iter().map(|block| points_of(block)).sum(),
+            stopped: false,
+        }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stopped
+    }
+
+    /// The plan of a block of so many points: with its share of the time that is left.
+    fn begin(&mut self, points: usize, plan: &Plan) -> Plan {
+        self.at_work = points;
+        let left = (self.all - self.done).max(1);
+        let elapsed = if self.done == 0 {
+            Duration::ZERO
+        } else {
+            self.start.elapsed()
+        };
+        let share = |time: Duration| {
+            let time = time.saturating_sub(elapsed);
+            time.mul_f64(points as f64 / left as f64)
+        };
+        let mut plan = plan.clone();
+        if self.several {
+            plan.stop.time = plan.stop.time.map(share);
+        }
+        plan
+    }
+
+    /// A block is done; the observer is asked, however short it was.
+    fn end(&mut self) {
+        self.done += self.at_work;
+        self.at_work = 0;
+        if self.done < self.all && !self.stopped {
+            // What an observer says is kept in `stopped`.
+            let _ = self.update(&Progress {
+                phase: Phase::Final,
+                samples: 0,
+                planned: 0,
+                finished: 0.0,
+                elapsed: self.start.elapsed(),
+                remaining: None,
+                relative_error: None,
+            });
+        }
+    }
+
+    /// The same progress, but of all blocks.
+    fn overall(&self, progress: &Progress) -> Progress {
+        let of_block = match progress.phase {
+            Phase::Pilot => 0.0,
+            Phase::Final => progress.finished,
+            Phase::Rerun => 1.0,
+        };
+        let points = self.done as f64 + of_block * self.at_work as f64;
+        let finished = points / self.all.max(1) as f64;
+        let elapsed = self.start.elapsed();
+        let remaining = elapsed.as_secs_f64() * (1.0 - finished) / finished;
+        Progress {
+            finished,
+            elapsed,
+            remaining: Duration::try_from_secs_f64(remaining).ok(),
+            ..*progress
+        }
+    }
+}
+
+impl Observer for Watch<'_> {
+    fn update(&mut self, progress: &Progress) -> ControlFlow<()> {
+        let verdict = if self.several {
+            let overall = self.overall(progress);
+            self.observer.update(&overall)
+        } else {
+            self.observer.update(progress)
+        };
+        self.stopped |= verdict.is_break();
+        verdict
+    }
+}
+
+/// Weights of the columns in the scalar that tolerances are about: the first readout, all groups.
+fn scalar_weights(scene: &Scene, readouts: &[Readout]) -> Vec<f64> {
+    let lanes = readouts.first().map_or_else(
+        || scene.lanes().radiant_weights(),
+        |readout| readout.weights.clone(),
+    );
+    (0..scene.columns())
+        .map(|column| lanes[column % lanes.len()])
+        .collect()
+}
+
+fn record(
+    scene: &Scene,
+    options: &MeasureOptions,
+    parts: Vec<Part>,
+    replicates: Vec<Replicates>,
+) -> Measurements {
+    // Streams are numbered in the order of the readings.
+    let mut replicates = replicates.into_iter();
+    let mut sensor = |part: Part| SensorRecord {
+        name: part.sensor.name.clone(),
+        quantities: part.sensor.readouts.clone(),
+        layout: part.sensor.layout,
+        points: part
+            .readings
+            .into_iter()
+            .map(|reading| point(reading, &mut replicates))
+            .collect(),
+    };
+    let lanes = scene.lanes().names().iter().cloned();
+    Measurements {
+        scene_name: scene.name().into(),
+        seed: options.plan.seed,
+        confidence: options.plan.confidence,
+        luminous_efficacy: scene.reported_efficacy(),
+        max_depth: options.max_depth,
+        lanes: lanes.map(|name| LaneRecord { name }).collect(),
+        groups: scene.groups().to_vec(),
+        dimming: Dimming::new(scene.schedules().to_vec()),
+        sensors: parts.into_iter().map(&mut sensor).collect(),
+        unsampled: unsampled(scene),
+        warnings: scene.warnings().to_vec(),
+        shard: options.plan.shard,
+    }
+}
+
+fn point(reading: Prepared, replicates: &mut impl Iterator<Item = Replicates>) -> PointRecord {
+    PointRecord {
+        index: reading.index,
+        position: reading.position.map(|point| point.to_array()),
+        normal: reading.normal.map(|normal| normal.to_array()),
+        sits_on: reading.sits_on,
+        about: reading.about,
+        exact: reading.exact,
+        closed: reading.closed,
+        replicates: if reading.is_sampled {
+            replicates.next()
+        } else {
+            None
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pieces(sizes: &[(usize, bool)], most: usize) -> Vec<Vec<(usize, Range<usize>)>> {
+        let size = |&(points, can_be_cut): &(usize, bool)| Size { points, can_be_cut };
+        let sizes: Vec<_> = sizes.iter().map(size).collect();
+        let block = |block: Vec<Piece>| {
+            let pieces = block.into_iter();
+            pieces.map(|piece| (piece.position, piece.points)).collect()
+        };
+        cut(&sizes, most).into_iter().map(block).collect()
+    }
+
+    #[test]
+    fn small_sensors_stay_whole_and_share_a_block() {
+        let sizes = [(3, true), (4, true), (1, false), (8, true), (2, true)];
+        let expected = [
+            vec![(0, 0..3), (1, 0..4), (2, 0..1)],
+            vec![(3, 0..8)],
+            vec![(4, 0..2)],
+        ];
+        assert_eq!(pieces(&sizes, 8), expected);
+    }
+
+    #[test]
+    fn a_large_sensor_is_cut_into_equal_parts() {
+        let expected = [
+            vec![(0, 0..6)],
+            vec![(0, 6..12)],
+            vec![(0, 12..18), (1, 0..2)],
+        ];
+        assert_eq!(pieces(&[(18, true), (2, true)], 8), expected);
+        assert_eq!(pieces(&[(18, false)], 8), [[(0, 0..18)]]);
+    }
+
+    /// A half of the points have a half of the time; what the first block left over goes to the others.
+    #[test]
+    fn time_is_shared_out_by_points() {
+        let (mut silent, plan) = (
+            crate::estimation::Silent,
+            Plan {
+                stop: crate::estimation::Stopping::at_time(Duration::from_secs(1000)),
+                ..Plan::default()
+            },
+        );
+        let sizes = [8, 4, 4].map(|points| Size {
+            points,
+            can_be_cut: true,
+        });
+        let mut watch = Watch::new(&mut silent, &cut(&sizes, 8));
+        let seconds = |plan: &Plan| plan.stop.time.unwrap().as_secs_f64();
+        let first = seconds(&watch.begin(8, &plan));
+        watch.end();
+        let second = seconds(&watch.begin(8, &plan));
+        assert_eq!(first, 500.0);
+        assert!((999.0..=1000.0).contains(&second), "{second}");
+    }
+
+    /// Half-way through the second of two equal blocks, three quarters are done; pilots count nothing.
+    #[test]
+    fn an_observer_sees_all_blocks() {
+        let mut seen = Vec::new();
+        let mut observer = |progress: &Progress| {
+            seen.push(progress.finished);
+            ControlFlow::Continue(())
+        };
+        let size = Size {
+            points: 16,
+            can_be_cut: true,
+        };
+        let mut watch = Watch::new(&mut observer, &cut(&[size], 8));
+        let told = |phase| Progress {
+            phase,
+            samples: 0,
+            planned: 0,
+            finished: 0.5,
+            elapsed: Duration::ZERO,
+            remaining: None,
+            relative_error: None,
+        };
+        watch.begin(8, &Plan::default());
+        let _ = watch.update(&told(Phase::Pilot));
+        let _ = watch.update(&told(Phase::Final));
+        watch.end();
+        watch.begin(8, &Plan::default());
+        let _ = watch.update(&told(Phase::Final));
+        watch.end();
+        assert_eq!(seen, [0.0, 0.25, 0.5, 0.75]);
+    }
+}
