@@ -1,18 +1,18 @@
 //! The public face: build once, then ask in batches.
 
 use crate::batch::{Hit, HitBatch, MISS, Ray, RayBatch};
-use crate::collapse::{Item, WideTree};
 use crate::geometry::{BuildError, Geometry, Quadric};
 use crate::instruction_set::{InstructionSet, Kernel};
-use crate::node::{Bounds, Leaf, Node, WIDTH, bounds_of_hittable};
+use crate::node::{Bounds, Leaf, Node, WIDTH};
 use crate::packet::Packet;
 use crate::prepared_ray::PreparedRay;
 use crate::region;
 use crate::simd::{Floats, Simd};
 use crate::small_scene::SmallScene;
 use crate::traversal::{self, Closest, Target};
-use crate::triangle;
+use crate::triangle::{self, is_degenerate};
 use crate::turns::{Question, Turns};
+use crate::wide_tree::WideTree;
 
 /// With more quadrics than this a tree is faster than trying all.
 const MOST_QUADRICS_WITHOUT_TREE: usize = 4;
@@ -39,34 +39,27 @@ impl Accelerator {
     pub fn build(geometry: &Geometry) -> Result<Self, BuildError> {
         geometry.validate()?;
         let corners = |triangle: u32| geometry.corners(triangle as usize);
-        let hittable: Vec<(Bounds, u32)> = (0..geometry.triangles.len() as u32)
-            .filter_map(|triangle| Some((bounds_of_hittable(corners(triangle))?, triangle)))
-            .collect();
-        let (mut boxes, mut items): (Vec<_>, Vec<_>) = hittable
-            .iter()
-            .map(|&(bounds, triangle)| (bounds, Item::Triangle(triangle)))
-            .unzip();
-        let mut unbounded = Vec::new();
+        let mut hittable = Vec::with_capacity(geometry.triangles.len());
+        hittable
+            .extend((0..geometry.triangles.len() as u32).filter(|&n| !is_degenerate(corners(n))));
+        let (mut bounded, mut unbounded) = (Vec::new(), Vec::new());
         for (index, quadric) in (0..).zip(&geometry.quadrics) {
             match quadric.bounds() {
-                Some(bounds) => {
-                    boxes.push(bounds);
-                    items.push(Item::Quadric(index));
-                }
+                Some(bounds) => bounded.push((bounds, index)),
                 None => unbounded.push(index),
             }
         }
-        let is_small = geometry.quadrics.len() <= MOST_QUADRICS_WITHOUT_TREE;
-        let numbers: Vec<u32> = hittable.iter().map(|&(_, triangle)| triangle).collect();
+        let small = (geometry.quadrics.len() <= MOST_QUADRICS_WITHOUT_TREE)
+            .then(|| SmallScene::new(&hittable, corners))
+            .flatten();
+        let tree = WideTree::build(hittable, &bounded, corners);
         Ok(Self {
-            tree: WideTree::build(&boxes, &items, corners),
-            bounds: boxes.into_iter().fold(Bounds::EMPTY, Bounds::union),
+            bounds: tree.bounds(),
+            tree,
             quadrics: geometry.quadrics.clone(),
             unbounded,
             triangle_count: geometry.triangles.len(),
-            small: is_small
-                .then(|| SmallScene::new(&numbers, corners))
-                .flatten(),
+            small,
         })
     }
 

@@ -2,25 +2,28 @@
 //! and reinsertion (Meister & Bittner 2018b), one primitive a leaf.
 
 use crate::node::Bounds;
+pub(crate) use obvhs::Boundable;
 use obvhs::BvhBuildParams;
-use obvhs::aabb::Aabb;
+pub(crate) use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, reinsertion::ReinsertionOptimizer};
 use obvhs::ploc::PlocBuilder;
+
+impl From<Bounds> for Aabb {
+    fn from(bounds: Bounds) -> Self {
+        Self::new(bounds.lower.into(), bounds.upper.into())
+    }
+}
 
 /// Nodes are numbers; the root is 0.
 pub(crate) struct BinaryTree(Bvh2);
 
 impl BinaryTree {
-    /// `boxes` must not be empty.
-    pub(crate) fn build(boxes: &[Bounds]) -> Self {
-        let boxes: Vec<Aabb> = boxes
-            .iter()
-            .map(|bounds| Aabb::new(bounds.lower.into(), bounds.upper.into()))
-            .collect();
+    /// There must be at least one box.
+    pub(crate) fn build(boxes: &[impl Boundable]) -> Self {
         let quality = BvhBuildParams::medium_build();
         let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
             quality.ploc_search_distance,
-            &boxes,
+            boxes,
             (0..boxes.len() as u32).collect(),
             quality.sort_precision,
             quality.search_depth_threshold,

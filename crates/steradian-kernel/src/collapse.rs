@@ -13,49 +13,29 @@
 //! Source: H. Ylitie, T. Karras, S. Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
 //! High-Performance Graphics 2017, §3.1 and equations 1–3.
 
-use crate::binary_tree::BinaryTree;
+use crate::binary_tree::{Aabb, BinaryTree, Boundable};
 use crate::node::{Bounds, Child, Leaf, Node, WIDTH};
+use crate::wide_tree::WideTree;
 
 const NODE_COST: f32 = 1.0;
 const LEAF_COST: f32 = 1.0;
 
-/// A primitive of the tree.
+/// What a binary tree is built over.
 #[derive(Copy, Clone)]
 pub(crate) enum Item {
     Triangle(u32),
     /// Index among the quadrics.
     Quadric(u32),
+    /// Some of the triangles.
+    Subtree(Child),
 }
 
-/// The wide tree; node 0 is the root.
-#[derive(Clone, Default)]
-pub(crate) struct WideTree {
-    pub(crate) nodes: Vec<Node>,
-    pub(crate) leaves: Vec<Leaf>,
-    /// Nodes on the longest way down.
-    pub(crate) depth: usize,
-}
+/// An item in its box.
+pub(crate) struct Boxed(pub(crate) Bounds, pub(crate) Item);
 
-impl WideTree {
-    /// `items[i]` lies in `boxes[i]`; degenerate triangles are expected to be left out.
-    pub(crate) fn build(
-        boxes: &[Bounds],
-        items: &[Item],
-        corners: impl Fn(u32) -> [[f32; 3]; 3],
-    ) -> Self {
-        if boxes.is_empty() {
-            return Self::default();
-        }
-        let binary = BinaryTree::build(boxes);
-        let costs = Costs::new(&binary, items);
-        Collapse {
-            binary: &binary,
-            costs: &costs,
-            items,
-            corners,
-            tree: Self::default(),
-        }
-        .run()
+impl Boundable for Boxed {
+    fn aabb(&self) -> Aabb {
+        self.0.into()
     }
 }
 
@@ -68,7 +48,7 @@ struct Costs {
 }
 
 impl Costs {
-    fn new(binary: &BinaryTree, items: &[Item]) -> Self {
+    fn new(binary: &BinaryTree, items: &[Boxed]) -> Self {
         let len = binary.len();
         let areas = (0..len).map(|node| binary.half_area(node)).collect();
         let mut costs = Self {
@@ -78,7 +58,7 @@ impl Costs {
         };
         for node in binary.top_down().into_iter().rev() {
             match binary.children(node) {
-                None => costs.set_primitive(node, items[binary.primitive(node) as usize]),
+                None => costs.set_primitive(node, items[binary.primitive(node) as usize].1),
                 Some(children) => costs.set_parent(node, children),
             }
         }
@@ -134,34 +114,58 @@ impl Costs {
     }
 }
 
+/// Fills the node `root` by the tree over some items, and says how deep that is.
+pub(crate) fn grow(
+    tree: &mut WideTree,
+    root: usize,
+    items: &[Boxed],
+    corners: impl Fn(u32) -> [[f32; 3]; 3],
+) -> usize {
+    let binary = BinaryTree::build(items);
+    let costs = Costs::new(&binary, items);
+    let collapse = Collapse {
+        binary: &binary,
+        costs: &costs,
+        items,
+        corners,
+        tree,
+    };
+    collapse.run(root)
+}
+
 struct Collapse<'a, F> {
     binary: &'a BinaryTree,
     costs: &'a Costs,
-    items: &'a [Item],
+    items: &'a [Boxed],
     corners: F,
-    tree: WideTree,
+    tree: &'a mut WideTree,
 }
 
 impl<F: Fn(u32) -> [[f32; 3]; 3]> Collapse<'_, F> {
-    fn run(mut self) -> WideTree {
-        self.tree.nodes.push(Node::EMPTY);
+    /// How deep the tree below and with the wide node is.
+    fn run(mut self, root: usize) -> usize {
+        let mut deepest = 0;
         // A binary node, the wide one made of it, and how deep that is.
-        let mut open = vec![(0, 0, 1)];
+        let mut open = vec![(0, root, 1)];
         while let Some((binary, wide, depth)) = open.pop() {
-            self.tree.depth = self.tree.depth.max(depth);
+            deepest = deepest.max(depth);
             for (lane, below) in self.cut(binary).into_iter().enumerate() {
-                let child = self.child(below);
-                self.tree.nodes[wide].set(lane, &self.binary.bounds(below), child);
-                if let crate::node::Below::Node(index) = child.below() {
+                let child = if self.becomes_leaf(below) {
+                    self.end(below)
+                } else {
+                    self.tree.nodes.push(Node::EMPTY);
+                    let index = self.tree.nodes.len() - 1;
                     open.push((below, index, depth + 1));
-                }
+                    Child::node(index)
+                };
+                self.tree.nodes[wide].set(lane, &self.binary.bounds(below), child);
             }
         }
-        self.tree
+        deepest
     }
 
-    /// The binary nodes that become the children of `node`, in the order in which a shadow ray tries them: leaves
-    /// before nodes, because they cost least, and the largest first, because it is the likeliest to be hit.
+    /// The binary nodes that become the children of `node`. A shadow ray tries the last one first: leaves come after nodes, because
+    /// they cost least, and the largest last, because it is the likeliest to be hit.
     fn cut(&self, node: usize) -> Vec<usize> {
         let mut cut = Vec::with_capacity(WIDTH);
         match self.binary.children(node) {
@@ -171,8 +175,8 @@ impl<F: Fn(u32) -> [[f32; 3]; 3]> Collapse<'_, F> {
             _ => cut.push(node),
         }
         cut.sort_by(|&a, &b| {
-            let by_kind = self.becomes_leaf(b).cmp(&self.becomes_leaf(a));
-            by_kind.then(self.costs.areas[b].total_cmp(&self.costs.areas[a]))
+            let by_kind = self.becomes_leaf(a).cmp(&self.becomes_leaf(b));
+            by_kind.then(self.costs.areas[a].total_cmp(&self.costs.areas[b]))
         });
         cut
     }
@@ -194,28 +198,26 @@ impl<F: Fn(u32) -> [[f32; 3]; 3]> Collapse<'_, F> {
         }
     }
 
-    fn child(&mut self, node: usize) -> Child {
-        if !self.becomes_leaf(node) {
-            self.tree.nodes.push(Node::EMPTY);
-            return Child::node(self.tree.nodes.len() - 1);
-        }
+    /// What has no node of its own in this tree: a leaf of triangles, a quadric or what has been built before.
+    fn end(&mut self, node: usize) -> Child {
         let mut triangles = Vec::with_capacity(WIDTH);
-        if let Some(quadric) = self.gather(node, &mut triangles) {
-            return Child::quadric(quadric as usize);
+        if let Some(child) = self.gather(node, &mut triangles) {
+            return child;
         }
         self.tree.leaves.push(Leaf::new(&triangles, &self.corners));
         Child::leaf(self.tree.leaves.len() - 1)
     }
 
-    /// The triangles below a node that becomes a leaf, or its only quadric.
-    fn gather(&self, node: usize, triangles: &mut Vec<u32>) -> Option<u32> {
+    /// The triangles below a node that becomes a leaf, or the only other item.
+    fn gather(&self, node: usize, triangles: &mut Vec<u32>) -> Option<Child> {
         if let Some([left, right]) = self.binary.children(node) {
             return self
                 .gather(left, triangles)
                 .or(self.gather(right, triangles));
         }
-        match self.items[self.binary.primitive(node) as usize] {
-            Item::Quadric(quadric) => return Some(quadric),
+        match self.items[self.binary.primitive(node) as usize].1 {
+            Item::Quadric(quadric) => return Some(Child::quadric(quadric as usize)),
+            Item::Subtree(child) => return Some(child),
             Item::Triangle(triangle) => triangles.push(triangle),
         }
         None

@@ -39,6 +39,7 @@ mod geometry;
 mod instruction_set;
 mod node;
 mod packet;
+mod parts;
 mod prepared_ray;
 mod quadric;
 mod region;
@@ -48,6 +49,7 @@ mod small_scene;
 mod traversal;
 mod triangle;
 mod turns;
+mod wide_tree;
 
 pub use accelerator::Accelerator;
 pub use batch::{Hit, HitBatch, MISS, Ray, RayBatch};

@@ -1,7 +1,5 @@
 //! The nodes of the eight-wide tree.
 
-use crate::triangle;
-
 /// Children of a node, triangles of a leaf.
 pub(crate) const WIDTH: usize = 8;
 
@@ -36,6 +34,12 @@ impl Bounds {
         }
     }
 
+    /// Half the surface: the probability of a hit, up to a factor.
+    pub(crate) fn half_area(&self) -> f32 {
+        let [x, y, z] = [0, 1, 2].map(|k| self.upper[k] - self.lower[k]);
+        x * y + y * z + z * x
+    }
+
     /// Whether another box is flat and lies in one of the faces.
     pub(crate) fn has_in_a_face(&self, other: &Self) -> bool {
         (0..3).any(|k| {
@@ -66,6 +70,12 @@ impl Node {
             planes[1][lane] = bounds.upper[axis];
         }
         self.children[lane] = child;
+    }
+
+    /// The children and their boxes.
+    pub(crate) fn used(&self) -> impl Iterator<Item = (Bounds, Child)> {
+        let lanes = (0..WIDTH).filter(|&lane| self.children[lane].0 != u32::MAX);
+        lanes.map(|lane| (self.bounds(lane), self.children[lane]))
     }
 
     pub(crate) fn bounds(&self, lane: usize) -> Bounds {
@@ -172,11 +182,6 @@ impl Leaf {
             .enumerate()
             .filter(|&(_, number)| number != u32::MAX)
     }
-}
-
-/// The corners of every triangle that can be hit, by number.
-pub(crate) fn bounds_of_hittable(corners: [[f32; 3]; 3]) -> Option<Bounds> {
-    (!triangle::is_degenerate(corners)).then(|| Bounds::of_points(&corners))
 }
 
 #[cfg(test)]

@@ -5,12 +5,12 @@
 //! the values, so one integer comparison sorts.
 
 use crate::batch::{Hit, MISS, Ray};
-use crate::collapse::WideTree;
 use crate::geometry::Quadric;
 use crate::node::{Below, Bounds, Child, Leaf, Node, WIDTH};
 use crate::prepared_ray::PreparedRay;
 use crate::simd::{Floats, Mask, Simd};
 use crate::triangle::{Edges, Intersection, Shear, exact_intersection};
+use crate::wide_tree::WideTree;
 
 /// What a walk reads.
 #[derive(Copy, Clone)]

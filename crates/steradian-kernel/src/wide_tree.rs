@@ -1,0 +1,182 @@
+//! The eight-wide tree, and how it is built: at once, or in parts.
+
+use crate::collapse::{Boxed, Item, grow};
+use crate::node::{Bounds, Leaf, Node, WIDTH};
+use crate::parts::divide;
+
+/// Up to so many triangles make one binary tree, which takes 300 bytes for each while it is built, and more are cut into parts.
+const MOST_AT_ONCE: usize = 1 << 20;
+
+/// The triangles of a part: what is built at once is small beside a large mesh.
+const MOST_IN_A_PART: usize = 1 << 17;
+
+/// Memory that is never touched costs nothing.
+const ROOM_MARGIN: f64 = 1.25;
+
+/// The wide tree; node 0 is the root.
+#[derive(Clone, Default)]
+pub(crate) struct WideTree {
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) leaves: Vec<Leaf>,
+    /// Nodes on the longest way down.
+    pub(crate) depth: usize,
+}
+
+impl WideTree {
+    /// Of quadrics by index and triangles by number; degenerate triangles are expected to be left out.
+    pub(crate) fn build(
+        triangles: Vec<u32>,
+        quadrics: &[(Bounds, u32)],
+        corners: impl Fn(u32) -> [[f32; 3]; 3],
+    ) -> Self {
+        let most = if triangles.len() <= MOST_AT_ONCE {
+            MOST_AT_ONCE
+        } else {
+            MOST_IN_A_PART
+        };
+        Self::build_in_parts(triangles, quadrics, corners, most)
+    }
+
+    fn build_in_parts(
+        mut triangles: Vec<u32>,
+        quadrics: &[(Bounds, u32)],
+        corners: impl Fn(u32) -> [[f32; 3]; 3],
+        most: usize,
+    ) -> Self {
+        let mut tree = Self::default();
+        if triangles.is_empty() && quadrics.is_empty() {
+            return tree;
+        }
+        tree.nodes.push(Node::EMPTY);
+        let quadrics = quadrics.iter();
+        let mut items: Vec<Boxed> = quadrics
+            .map(|&(bounds, index)| Boxed(bounds, Item::Quadric(index)))
+            .collect();
+        if triangles.len() <= most {
+            items.extend(boxed(&triangles, &corners));
+        } else {
+            tree.add_parts(&mut triangles, &corners, most, &mut items);
+        }
+        drop(triangles);
+        tree.depth += grow(&mut tree, 0, &items, &corners);
+        tree
+    }
+
+    /// Builds the parts, the last one first, and forgets its triangles.
+    fn add_parts(
+        &mut self,
+        triangles: &mut Vec<u32>,
+        corners: impl Fn(u32) -> [[f32; 3]; 3],
+        most: usize,
+        items: &mut Vec<Boxed>,
+    ) {
+        let count = triangles.len();
+        let mut parts = divide(triangles, |n| Bounds::of_points(&corners(n)), most);
+        parts.sort_by_key(|part| part.start);
+        let mut has_room = false;
+        for part in parts.into_iter().rev() {
+            items.extend(self.part(&boxed(&triangles[part.clone()], &corners), &corners));
+            triangles.truncate(part.start);
+            triangles.shrink_to_fit();
+            let built = count - part.start;
+            if !has_room && built >= most {
+                self.make_room(count as f64 / built as f64);
+                has_room = true;
+            }
+        }
+    }
+
+    /// The trees of a part: those below its root, which gives way to nodes that know of all parts.
+    fn part(&mut self, part: &[Boxed], corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Vec<Boxed> {
+        self.depth = self.depth.max(grow(self, 0, part, corners));
+        let root = std::mem::replace(&mut self.nodes[0], Node::EMPTY);
+        root.used()
+            .map(|(bounds, child)| Boxed(bounds, Item::Subtree(child)))
+            .collect()
+    }
+
+    /// The box around everything in the tree.
+    pub(crate) fn bounds(&self) -> Bounds {
+        let root = self.nodes.first();
+        root.map_or(Bounds::EMPTY, |root| {
+            (0..WIDTH).fold(Bounds::EMPTY, |bounds, lane| {
+                bounds.union(root.bounds(lane))
+            })
+        })
+    }
+
+    /// Makes room for so many times what there is, and some more: a vector that grows holds everything twice.
+    fn make_room(&mut self, factor: f64) {
+        let more = |len: usize| (len as f64 * (factor * ROOM_MARGIN - 1.0)) as usize;
+        self.nodes.reserve_exact(more(self.nodes.len()));
+        self.leaves.reserve_exact(more(self.leaves.len()));
+    }
+}
+
+/// Triangles with their boxes.
+fn boxed(triangles: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Vec<Boxed> {
+    let triangles = triangles.iter();
+    triangles
+        .map(|&number| Boxed(Bounds::of_points(&corners(number)), Item::Triangle(number)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::WideTree;
+    use crate::node::{Below, Bounds, WIDTH};
+
+    /// A triangle over each unit square of a plane.
+    fn corners(number: u32) -> [[f32; 3]; 3] {
+        let [x, y] = [number % 40, number / 40].map(|k| k as f32);
+        [[x, y, 0.0], [x + 1.0, y, 0.5], [x, y + 1.0, 1.0]]
+    }
+
+    /// Counts what is below a node, whose box is around all of it, and the nodes of the longest way down.
+    fn check(tree: &WideTree, node: usize, counts: &mut [u32], quadrics: &mut u32) -> usize {
+        let mut depth = 0;
+        let node = &tree.nodes[node];
+        for lane in (0..WIDTH).filter(|&lane| node.children[lane].0 != u32::MAX) {
+            let inside = match node.children[lane].below() {
+                Below::Node(child) => {
+                    depth = depth.max(check(tree, child, counts, quadrics));
+                    (0..WIDTH)
+                        .map(|lane| tree.nodes[child].bounds(lane))
+                        .collect()
+                }
+                Below::Leaf(leaf) => {
+                    let mut inside = Vec::new();
+                    for (_, number) in tree.leaves[leaf].lanes() {
+                        counts[number as usize] += 1;
+                        inside.push(Bounds::of_points(&corners(number)));
+                    }
+                    inside
+                }
+                Below::Quadric(_) => {
+                    *quadrics += 1;
+                    vec![]
+                }
+            };
+            let bounds = node.bounds(lane);
+            assert_eq!(inside.into_iter().fold(bounds, Bounds::union), bounds);
+        }
+        depth + 1
+    }
+
+    #[test]
+    fn every_primitive_is_in_the_tree_once() {
+        let sphere = (Bounds::of_points(&[[50.0; 3], [51.0; 3]]), 0);
+        for most in [7, 100, 1 << 17] {
+            let tree = WideTree::build_in_parts((0..1600).collect(), &[sphere], corners, most);
+            let (mut counts, mut quadrics) = ([0; 1600], 0);
+            let depth = check(&tree, 0, &mut counts, &mut quadrics);
+            assert_eq!((counts, quadrics), ([1; 1600], 1));
+            assert!(
+                depth <= tree.depth && tree.depth <= depth + 2,
+                "{depth}, {}",
+                tree.depth
+            );
+            assert_eq!(tree.bounds().upper, [51.0; 3]);
+        }
+    }
+}
