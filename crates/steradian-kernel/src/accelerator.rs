@@ -7,7 +7,7 @@ use crate::node::{Bounds, Leaf, Node, WIDTH};
 use crate::packet::Packet;
 use crate::prepared_ray::PreparedRay;
 use crate::region;
-use crate::simd::{Floats, Simd};
+use crate::simd::Simd;
 use crate::small_scene::SmallScene;
 use crate::traversal::{self, Closest, Target};
 use crate::triangle::{self, is_degenerate};
@@ -207,7 +207,17 @@ impl Accelerator {
 
     #[inline(always)]
     fn occlusion_of_many<S: Simd>(&self, set: S, rays: &RayBatch, occluded: &mut [bool]) {
-        let starts: Vec<u32> = (0..rays.len() as u32).step_by(S::Wide::LANES).collect();
+        let mut stack = traversal::stack_for(&self.tree);
+        let mut starts = Vec::new();
+        for start in (0..rays.len()).step_by(Packet::<S>::RAYS) {
+            if let Some(mut packet) = Packet::of_shadow_rays(set, rays, start, &self.bounds) {
+                packet.try_quadrics(self.target());
+                packet.trace(self.target(), &mut stack);
+                packet.write_any(occluded);
+                continue;
+            }
+            starts.push(start as u32);
+        }
         Turns::trace(set, self.target(), rays, &starts, OccludedRows(occluded));
     }
 

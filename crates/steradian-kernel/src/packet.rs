@@ -9,6 +9,8 @@
 //! monotone, so that it never leaves out what one of its rays would meet. The test of a ray and a triangle has the operations of
 //! the single ray's, and the closest hit is the smallest `(t, primitive)` in any order: hits are the same bits.
 //!
+//! Of shadow rays a packet is narrower, because rays that go by turns are nearly as fast there, and a ray is done with its first hit.
+//!
 //! Sources: I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive Rendering with Coherent Ray Tracing", Computer Graphics
 //! Forum 20(3), 2001, for packets; S. Boulos, I. Wald, P. Shirley, "Geometric and Arithmetic Culling Methods for Entire Ray
 //! Packets", University of Utah UUCS-06-010, 2006, for intervals in their place.
@@ -17,7 +19,7 @@ mod beam;
 mod best;
 mod bundle;
 
-use crate::batch::{HitBatch, RayBatch};
+use crate::batch::{HitBatch, MISS, RayBatch};
 use crate::node::{Below, Bounds, Child, Leaf, WIDTH};
 use crate::prepared_ray::PreparedRay;
 use crate::simd::{Floats, Mask, Simd};
@@ -26,6 +28,12 @@ use crate::triangle::{Edges, splat};
 use beam::Beam;
 use best::Best;
 use bundle::Bundle;
+
+/// The most by which slopes in a packet differ: rays further apart go alone.
+const WIDEST: f32 = 1.0 / 8.0;
+
+/// The same for shadow rays.
+const WIDEST_OF_SHADOW_RAYS: f32 = 1.0 / 16.0;
 
 /// Neighbouring rays with what they share.
 pub(crate) struct Packet<'a, S: Simd> {
@@ -36,6 +44,8 @@ pub(crate) struct Packet<'a, S: Simd> {
     bundle: Bundle<S::Wide>,
     beam: Beam<S::Eight>,
     best: Best,
+    /// Whether any hit will do.
+    any: bool,
 }
 
 impl<'a, S: Simd> Packet<'a, S> {
@@ -45,8 +55,19 @@ impl<'a, S: Simd> Packet<'a, S> {
     /// Of the rays from this row on; nothing if they are too few or not much alike, or one is not valid.
     #[inline(always)]
     pub(crate) fn new(set: S, rays: &'a RayBatch, start: usize, bounds: &Bounds) -> Option<Self> {
-        let bundle = Bundle::<S::Wide>::load(set, rays, start)?;
-        let beam = Beam::around::<S::Wide>(set, &bundle, bounds)?;
+        Self::no_wider_than(WIDEST, set, rays, start, bounds)
+    }
+
+    #[inline(always)]
+    fn no_wider_than(
+        widest: f32,
+        set: S,
+        rays: &'a RayBatch,
+        start: usize,
+        bounds: &Bounds,
+    ) -> Option<Self> {
+        let bundle = Bundle::<S::Wide>::load(set, rays, start, widest)?;
+        let beam = Beam::around::<S::Wide>(set, &bundle, bounds, widest)?;
         let best = Best::up_to(bundle.t_max);
         Some(Self {
             set,
@@ -55,7 +76,25 @@ impl<'a, S: Simd> Packet<'a, S> {
             bundle,
             beam,
             best,
+            any: false,
         })
+    }
+
+    /// Of shadow rays: any hit before the end of a ray will do, and a ray that has one is done.
+    #[inline(always)]
+    pub(crate) fn of_shadow_rays(
+        set: S,
+        rays: &'a RayBatch,
+        start: usize,
+        bounds: &Bounds,
+    ) -> Option<Self> {
+        let mut packet = Self::no_wider_than(WIDEST_OF_SHADOW_RAYS, set, rays, start, bounds)?;
+        packet.any = true;
+        for lane in 0..Self::RAYS {
+            packet.best.t[lane] = rays.t_max[start + lane].next_down();
+        }
+        packet.look_for_furthest();
+        Some(packet)
     }
 
     /// Improves the hits by what is not in the tree.
@@ -73,7 +112,7 @@ impl<'a, S: Simd> Packet<'a, S> {
                 self.best.offer(lane, primitive, [t, 0.0, 0.0]);
             }
         }
-        self.best.look_for_furthest::<S::Wide>();
+        self.look_for_furthest();
     }
 
     /// Improves the hits by everything in the tree, which is not empty.
@@ -104,6 +143,21 @@ impl<'a, S: Simd> Packet<'a, S> {
         }
     }
 
+    #[inline(always)]
+    fn look_for_furthest(&mut self) {
+        if self.any {
+            self.best.retire();
+        }
+        self.best.look_for_furthest::<S::Wide>();
+    }
+
+    /// Writes to the rays' rows whether they have a hit.
+    pub(crate) fn write_any(&self, occluded: &mut [bool]) {
+        for lane in 0..Self::RAYS {
+            occluded[self.start + lane] = self.best.hit(lane).primitive != MISS;
+        }
+    }
+
     /// Writes the hits to the rays' rows.
     pub(crate) fn write(&self, hits: &mut HitBatch) {
         for lane in 0..Self::RAYS {
@@ -121,7 +175,7 @@ impl<'a, S: Simd> Packet<'a, S> {
             is_better |= self.try_triangle(leaf, triangle);
         }
         if is_better {
-            self.best.look_for_furthest::<S::Wide>();
+            self.look_for_furthest();
         }
     }
 

@@ -11,9 +11,6 @@ use crate::side_by_side::{Column, MOST_LANES};
 use crate::simd::{Floats, Scalar};
 use crate::triangle::splat;
 
-/// The widest interval of slopes of a packet: rays further apart go alone.
-const WIDEST_SLOPE: f32 = 1.0 / 8.0;
-
 /// The widest interval of origins, in units of the scene's largest extent.
 const WIDEST_ORIGIN: f32 = 1.0 / 64.0;
 
@@ -30,18 +27,19 @@ pub(super) struct Beam<F> {
 }
 
 impl<F: Floats> Beam<F> {
-    /// Nothing if the rays are too far apart.
+    /// Nothing if the rays are too far apart, or their slopes by more than `widest`.
     #[inline(always)]
     pub(super) fn around<R: Floats<Set = F::Set>>(
         set: F::Set,
         bundle: &Bundle<R>,
         bounds: &Bounds,
+        widest: f32,
     ) -> Option<Self> {
         let slope_x = ends(bundle.shear.slope[0]);
         let slope_y = ends(bundle.shear.slope[1]);
         let origin = ends_of_all(bundle.origin);
-        let narrow = slope_x[1] - slope_x[0] <= WIDEST_SLOPE
-            && slope_y[1] - slope_y[0] <= WIDEST_SLOPE
+        let narrow = slope_x[1] - slope_x[0] <= widest
+            && slope_y[1] - slope_y[0] <= widest
             && starts_together(origin, bounds);
         if !narrow {
             return None;

@@ -31,6 +31,14 @@ impl Best {
         best
     }
 
+    /// Lets rays that have a hit take no other.
+    #[inline(always)]
+    pub(super) fn retire(&mut self) {
+        for (t, primitive) in self.t.iter_mut().zip(self.primitive) {
+            *t = if primitive == MISS { *t } else { 0.0 };
+        }
+    }
+
     #[inline(always)]
     pub(super) fn look_for_furthest<F: Floats>(&mut self) {
         self.furthest = super::beam::largest::<F>(self.t);

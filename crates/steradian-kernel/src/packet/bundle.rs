@@ -6,9 +6,6 @@ use crate::prepared_ray::{DIRECTION_RANGE, axes_of, main_axis};
 use crate::simd::{Floats, Mask};
 use crate::triangle::Shear;
 
-/// The most by which the directions of the first and the last ray may differ, in units of the larger one's main component.
-const WIDEST: f32 = 1.0 / 8.0;
-
 /// As many valid rays as a vector has lanes.
 pub(super) struct Bundle<F> {
     /// As of a [`PreparedRay`](crate::prepared_ray::PreparedRay).
@@ -23,10 +20,12 @@ pub(super) struct Bundle<F> {
 }
 
 impl<F: Floats> Bundle<F> {
-    /// The rays from this row on, if there are enough, all valid and alike in the way told above.
+    /// The rays from this row on, if there are enough, all valid and alike in the way told above. The directions of the first and the last
+    /// may differ by `widest`, in units of the larger one's main component.
     #[inline(always)]
-    pub(super) fn load(set: F::Set, rays: &RayBatch, start: usize) -> Option<Self> {
-        if start + F::LANES > rays.len() || !ends_are_alike(rays, start, start + F::LANES - 1) {
+    pub(super) fn load(set: F::Set, rays: &RayBatch, start: usize, widest: f32) -> Option<Self> {
+        let end = start + F::LANES;
+        if end > rays.len() || !ends_are_alike(rays, start, end - 1, widest) {
             return None;
         }
         let main = main_axis(rays.ray(start).direction);
@@ -66,10 +65,10 @@ impl<F: Floats> Bundle<F> {
 
 /// A quick look at the first and the last ray.
 #[inline(always)]
-fn ends_are_alike(rays: &RayBatch, first: usize, last: usize) -> bool {
+fn ends_are_alike(rays: &RayBatch, first: usize, last: usize, widest: f32) -> bool {
     let [d, e] = [rays.ray(first).direction, rays.ray(last).direction];
     let largest = d[0].abs().max(d[1].abs()).max(d[2].abs());
-    let most = WIDEST * largest;
+    let most = widest * largest;
     ((d[0] - e[0]).abs() <= most) & ((d[1] - e[1]).abs() <= most) & ((d[2] - e[2]).abs() <= most)
 }
 

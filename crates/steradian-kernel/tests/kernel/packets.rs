@@ -1,7 +1,9 @@
-//! Neighbouring rays that go together find, bit for bit, what each of them finds alone.
+//! Neighbouring rays that go together find, bit for bit, what each of them finds alone, and whether it finds anything before its end.
 
 use crate::{meshes, random};
-use steradian_kernel::{Accelerator, Geometry, HitBatch, InstructionSet, Quadric, Ray, RayBatch};
+use steradian_kernel::{
+    Accelerator, Geometry, HitBatch, InstructionSet, MISS, Quadric, Ray, RayBatch,
+};
 
 /// Every ray alone, by the single-ray path and in a batch of its own, is the judge.
 fn assert_same_as_alone(geometry: &Geometry, rays: &RayBatch) {
@@ -22,6 +24,12 @@ fn assert_same_as_alone(geometry: &Geometry, rays: &RayBatch) {
                 rays.ray(row)
             );
             assert_eq!(together.primitive, alone.primitive, "{set:?}, row {row}");
+        }
+        let mut occluded = Vec::new();
+        accelerator.occluded(rays, &mut occluded, set);
+        for (row, alone) in expected.iter().enumerate() {
+            let before_end = alone.primitive != MISS && alone.t < rays.t_max[row];
+            assert_eq!(occluded[row], before_end, "{set:?}, {:?}", rays.ray(row));
         }
     }
     for row in (0..rays.len()).step_by(13) {
@@ -157,6 +165,26 @@ fn bundles_of_any_place_and_scale_agree() {
                 let start = place([0, 1, 2].map(|k| origin[k] + lens[k]));
                 let direction = [0, 1, 2].map(|k| (towards[k] + turn[k]) * length);
                 rays.push(start, direction, f32::INFINITY);
+            }
+        }
+        assert_same_as_alone(&geometry, &rays);
+    }
+}
+
+/// Segments from neighbouring points to a lamp: in the open, behind things, through spheres, to the very surface of what they end on.
+#[test]
+fn shadow_rays_to_a_lamp_agree() {
+    let geometry = mixed_scene();
+    let mut random = random::Random::new(8);
+    for size in [0.0, 0.02, 0.3] {
+        let mut rays = RayBatch::default();
+        for _ in 0..200 {
+            let (place, lamp) = (random.point(2.9), random.point(2.0));
+            for k in 0..16 {
+                let from = [place[0] + 0.003 * k as f32, place[1], place[2]];
+                let on_lamp = random.point(size);
+                let direction = [0, 1, 2].map(|k| lamp[k] + on_lamp[k] - from[k]);
+                rays.push(from, direction, [1.0, 0.999, 2.0][k % 3]);
             }
         }
         assert_same_as_alone(&geometry, &rays);
