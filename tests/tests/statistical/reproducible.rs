@@ -118,28 +118,45 @@ fn shiny_surfaces_change_no_bit() {
     }
 }
 
-/// Seven points are cut into three blocks, and the other sensors stay whole. Without a tolerance nothing depends on it.
-#[test]
-fn blocks_change_no_bit() {
+/// The same with a row of seven points, which blocks of three cut.
+fn with_a_row() -> SceneDescription {
     let mut scene = everything();
     let place = |i: u8| (p(f64::from(i) * 0.3 - 0.9, 0.3, 0.0), UP);
-    scene.sensors.push(sensor(
-        "row",
-        irradiance_at((0..7).map(place).collect::<Vec<_>>()),
-    ));
+    let row: Vec<_> = (0..7).map(place).collect();
+    scene.sensors.push(sensor("row", irradiance_at(row)));
+    scene
+}
+
+fn in_blocks(points_of_a_block: usize, stop: Stopping) -> Measurements {
+    let options = MeasureOptions {
+        points_of_a_block,
+        ..options(stop)
+    };
+    measured(&with_a_row(), &options)
+}
+
+/// Without a tolerance nothing depends on it how sensors are cut.
+#[test]
+fn blocks_change_no_bit() {
     let stop = Stopping::at_samples(1_000);
-    let whole = measured(&scene, &options(stop));
-    for points_of_a_block in [1, 3] {
-        let blocks = MeasureOptions {
-            points_of_a_block,
-            ..options(stop)
-        };
-        assert_eq!(
-            whole,
-            measured(&scene, &blocks),
-            "{points_of_a_block} points"
-        );
+    let whole = in_blocks(100, stop);
+    for points in [1, 3] {
+        assert_eq!(whole, in_blocks(points, stop), "{points} points");
     }
+}
+
+/// A sensor that is not cut reaches its tolerance as if there were no blocks; one that is cut reaches its own, whatever the threads.
+#[test]
+fn a_tolerance_is_that_of_the_sensor_in_its_block() {
+    let stop = Stopping::at_rel_error(0.03);
+    let (mut whole, mut cut) = (in_blocks(100, stop), in_blocks(3, stop));
+    assert!(whole.converged() && cut.converged());
+    let mut many = options(stop);
+    (many.plan.threads, many.points_of_a_block) = (3, 3);
+    assert_eq!(cut, measured(&with_a_row(), &many));
+    let row = [whole.sensors.pop(), cut.sensors.pop()].map(Option::unwrap);
+    assert_eq!(row[0].points.len(), row[1].points.len());
+    assert_eq!(whole, cut);
 }
 
 fn replicates(measurements: &Measurements) -> Vec<Replicates> {

@@ -352,7 +352,7 @@ pub fn sensors(scene: &Scene) -> Columns {
         let quantities: Vec<String> = quantities
             .map(|readout| format!("{} ({})", readout.name, readout.unit))
             .collect();
-        let on: Vec<String> = sits_on(sensor)
+        let on: Vec<String> = sits_on(scene, sensor)
             .into_iter()
             .map(|(on, points)| format!("{} ({}, {})", on.shape, on.side, plural(points, "point")))
             .collect();
@@ -367,10 +367,11 @@ pub fn sensors(scene: &Scene) -> Columns {
 }
 
 /// The sides of surfaces that a sensor's points lie on, and how many lie on each.
-pub fn sits_on(sensor: &Sensor) -> Vec<(SitsOn, usize)> {
-    let SensorKind::Irradiance(receivers) = &sensor.kind else {
+pub fn sits_on(scene: &Scene, sensor: &Sensor) -> Vec<(SitsOn, usize)> {
+    let SensorKind::Irradiance(places) = &sensor.kind else {
         return Vec::new();
     };
+    let receivers = scene.receivers(places, 0..places.len());
     let mut sides: Vec<(SitsOn, usize)> = Vec::new();
     for on in receivers
         .iter()

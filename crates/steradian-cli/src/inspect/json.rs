@@ -35,7 +35,7 @@ impl Inspection<'_> {
             "shapes": shapes(scene),
             "materials": materials(scene),
             "lights": scene.lights().iter().map(|one| light(scene, one)).collect::<Vec<_>>(),
-            "sensors": scene.sensors().iter().map(sensor).collect::<Vec<_>>(),
+            "sensors": scene.sensors().iter().map(|one| sensor(scene, one)).collect::<Vec<_>>(),
             "findings": self.findings.iter().map(Finding::json).collect::<Vec<_>>(),
             "unsampled": self.unsampled,
             "warnings": scene.warnings(),
@@ -91,7 +91,7 @@ fn light(scene: &Scene, light: &Light) -> Value {
     })
 }
 
-fn sensor(sensor: &Sensor) -> Value {
+fn sensor(scene: &Scene, sensor: &Sensor) -> Value {
     let (kind, at) = match &sensor.kind {
         Kind::Irradiance(points) => ("irradiance", json!({ "points": points.len() })),
         Kind::ScalarIrradiance(points) => ("scalar-irradiance", json!({ "points": points.len() })),
@@ -105,7 +105,7 @@ fn sensor(sensor: &Sensor) -> Value {
             ("camera", at)
         }
     };
-    let on = contents::sits_on(sensor).into_iter();
+    let on = contents::sits_on(scene, sensor).into_iter();
     json!({
         "name": sensor.name,
         "kind": kind,

@@ -36,6 +36,10 @@ const DEFAULT_REL_ERROR: f64 = 0.01;
 /// The run stops when every interval is narrow enough: by default ± 1 % of the value, where readings below 1 % of their
 /// sensor's mean need not be known any better than one at that level.
 ///
+/// Points are measured in blocks of at most 16384, and JSON, CSV and Parquet are written block by block, so that millions of points need no
+/// more memory than one block. Of a sensor that is cut, the mean above is that of each block; --time is shared out in proportion to points.
+/// Ctrl-C keeps what is finished and says what is missing.
+///
 /// Lights may have a schedule, factors in the course of time. Readings are those of factor 1, or with --at those of a time; with
 /// --duration each is also added up over an interval, exactly and without tracing light again.
 ///

@@ -44,7 +44,7 @@ fn tell(ended: &Ended) {
     missing.for_each(|missing| remark(&format!("not written: {missing}")));
 }
 
-/// Beside the output, where there is room for it.
+/// Beside the output, where there is room for it; for standard output in the system's folder for such files (`TMPDIR`).
 fn scratch(file: Option<&Path>) -> std::path::PathBuf {
     let folder = std::env::temp_dir().join("steradian");
     AtomicFile::scratch_name(file.unwrap_or(&folder))

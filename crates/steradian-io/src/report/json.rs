@@ -17,12 +17,14 @@
 
 use std::io::{self, Write};
 
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 use steradian::estimation::{Estimate, Method};
 use steradian::measurement::{
     Exposure, Extreme, Gathered, Measurements, Reading, SensorRecord, Statistics,
 };
 use steradian::quantity::Time;
+use steradian::sensor::SitsOn;
 
 use super::balance;
 use super::error::ReportError;
@@ -78,7 +80,7 @@ pub(super) fn write_blocks(
     let mut readings = List::begin(out, "readings")?;
     blocks.each(&mut |block| {
         let mut own = block.iter_readings();
-        own.try_for_each(|one| readings.push(&reading(&one)))
+        own.try_for_each(|one| readings.push(&ReadingObject::new(&one)))
     })?;
     readings.end()?;
     write_list(out, "balance", found.balances().iter().map(balance::object))?;
@@ -169,19 +171,31 @@ impl<'o> Stored<'o> {
 struct List<'o> {
     out: &'o mut dyn Write,
     is_empty: bool,
+    buffer: Vec<u8>,
 }
 
 impl<'o> List<'o> {
     fn begin(out: &'o mut dyn Write, key: &str) -> io::Result<Self> {
         write!(out, "\n  \"{key}\": [")?;
-        let is_empty = true;
-        Ok(Self { out, is_empty })
+        Ok(Self {
+            out,
+            is_empty: true,
+            buffer: Vec::new(),
+        })
     }
 
-    fn push(&mut self, value: &Value) -> io::Result<()> {
-        let before = if self.is_empty { "" } else { "," };
+    /// Line breaks within texts are escaped, so that each there is begins a line of the object.
+    fn push(&mut self, value: &impl Serialize) -> io::Result<()> {
+        let before: &[u8] = if self.is_empty { b"" } else { b"," };
         self.is_empty = false;
-        write!(self.out, "{before}\n    {}", indented(value, "    "))
+        self.out.write_all(before)?;
+        self.buffer.clear();
+        serde_json::to_writer_pretty(&mut self.buffer, value)?;
+        for line in self.buffer.split(|byte| *byte == b'\n') {
+            self.out.write_all(b"\n    ")?;
+            self.out.write_all(line)?;
+        }
+        Ok(())
     }
 
     fn end(self) -> io::Result<()> {
@@ -241,23 +255,41 @@ pub(super) fn facts_if(run: &Run<'_>, converged: bool) -> Map<String, Value> {
     facts.map(|(key, fact)| (key.to_owned(), fact)).collect()
 }
 
-fn reading(reading: &Reading) -> Value {
-    let mut object = Map::new();
-    object.insert("sensor".to_owned(), json!(reading.sensor));
-    object.insert("index".to_owned(), json!(reading.index));
-    object.insert("position".to_owned(), json!(reading.position));
-    object.insert("normal".to_owned(), json!(reading.normal));
-    object.insert("sits_on".to_owned(), json!(reading.sits_on));
-    object.insert("quantity".to_owned(), json!(reading.quantity));
-    object.insert("unit".to_owned(), json!(reading.unit));
-    object.extend(estimate(&reading.estimate));
-    object.insert("samples".to_owned(), json!(reading.samples));
-    object.insert("channels".to_owned(), parts(&reading.channels));
-    object.insert("groups".to_owned(), parts(&reading.groups));
-    if let Some(found) = &reading.exposure {
-        object.insert("exposure".to_owned(), exposure(found));
+#[derive(Serialize)]
+struct ReadingObject<'a> {
+    sensor: &'a str,
+    index: usize,
+    position: Option<[f64; 3]>,
+    normal: Option<[f64; 3]>,
+    sits_on: &'a Option<SitsOn>,
+    quantity: &'a str,
+    unit: &'a str,
+    #[serde(flatten)]
+    estimate: EstimateObject,
+    samples: u64,
+    channels: PartsObject<'a>,
+    groups: PartsObject<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exposure: Option<Value>,
+}
+
+impl<'a> ReadingObject<'a> {
+    fn new(reading: &'a Reading) -> Self {
+        Self {
+            sensor: &reading.sensor,
+            index: reading.index,
+            position: reading.position,
+            normal: reading.normal,
+            sits_on: &reading.sits_on,
+            quantity: &reading.quantity,
+            unit: &reading.unit,
+            estimate: EstimateObject::new(&reading.estimate),
+            samples: reading.samples,
+            channels: PartsObject(&reading.channels),
+            groups: PartsObject(&reading.groups),
+            exposure: reading.exposure.as_ref().map(exposure),
+        }
     }
-    Value::Object(object)
 }
 
 /// How far the points of a grid are apart along its edges, and how far EN 12464-1 lets them be.
@@ -305,7 +337,7 @@ fn statistics(found: &Statistics) -> Value {
         "max": extreme(&found.max),
         "uniformity": found.uniformity.as_ref().map(ratio),
         "diversity": found.diversity.as_ref().map(ratio),
-        "groups": parts(&found.groups),
+        "groups": PartsObject(&found.groups),
     })
 }
 
@@ -329,26 +361,54 @@ fn seconds(time: Time) -> Value {
     json!({ "value": time.to_seconds(), "unit": "s" })
 }
 
-/// The keys of an estimate, for any report that has one.
-pub fn estimate(estimate: &Estimate) -> Map<String, Value> {
-    let mut object = Map::new();
-    object.insert("value".to_owned(), json!(estimate.value));
-    object.insert("std_error".to_owned(), json!(estimate.std_error));
-    object.insert("confidence_interval".to_owned(), json!(estimate.interval));
-    object.insert("upper_bound".to_owned(), json!(estimate.upper_bound));
-    object.insert("method".to_owned(), json!(estimate.method));
-    object.insert("converged".to_owned(), json!(estimate.converged));
-    object
+/// The keys of an estimate; what is not finite is `null`.
+#[derive(Serialize)]
+struct EstimateObject {
+    value: f64,
+    std_error: f64,
+    confidence_interval: Option<[f64; 2]>,
+    upper_bound: Option<f64>,
+    method: Method,
+    converged: bool,
 }
 
-fn parts(parts: &[(String, Estimate)]) -> Value {
-    let part = |(name, part): &(String, Estimate)| {
-        (
-            name.clone(),
-            json!({ "value": part.value, "std_error": part.std_error }),
-        )
-    };
-    Value::Object(parts.iter().map(part).collect())
+impl EstimateObject {
+    fn new(estimate: &Estimate) -> Self {
+        Self {
+            value: estimate.value,
+            std_error: estimate.std_error,
+            confidence_interval: estimate.interval,
+            upper_bound: estimate.upper_bound,
+            method: estimate.method,
+            converged: estimate.converged,
+        }
+    }
+}
+
+/// The keys of an estimate, for any report that has one.
+pub fn estimate(estimate: &Estimate) -> Map<String, Value> {
+    match json!(EstimateObject::new(estimate)) {
+        Value::Object(object) => object,
+        _ => Map::new(),
+    }
+}
+
+/// Value and error by name.
+struct PartsObject<'a>(&'a [(String, Estimate)]);
+
+impl Serialize for PartsObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Part {
+            value: f64,
+            std_error: f64,
+        }
+        let part = |part: &Estimate| Part {
+            value: part.value,
+            std_error: part.std_error,
+        };
+        serializer.collect_map(self.0.iter().map(|(name, found)| (name, part(found))))
+    }
 }
 
 #[cfg(test)]

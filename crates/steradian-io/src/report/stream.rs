@@ -91,7 +91,6 @@ impl<W: Write + Send> Stream<W> {
     /// # Errors
     /// If the output or the file of waiting blocks refuses, or two columns of Parquet would have one name.
     pub fn block(&mut self, block: Measurements) -> io::Result<()> {
-        self.missed += block.missed();
         let found = self.found.get_or_insert_with(|| Measurements {
             sensors: vec![],
             ..block.without_points()
@@ -99,22 +98,26 @@ impl<W: Write + Send> Stream<W> {
         found.append_without_points(&block);
         self.writer = match std::mem::replace(&mut self.writer, Writer::Broken) {
             Writer::Csv(mut writer) => {
+                self.missed += block.missed();
                 writer.block(&block)?;
                 Writer::Csv(writer)
             }
             Writer::Json(mut writer) => {
                 writer.block(block, &self.facts)?;
+                self.missed = writer.gathered.missed();
                 Writer::Json(writer)
             }
             #[cfg(feature = "parquet")]
             Writer::NoParquet(out) => {
                 let run = self.facts.run(found);
+                self.missed += block.missed();
                 let mut writer = super::parquet::Writer::new(&run, out).map_err(told)?;
                 writer.block(&block).map_err(told)?;
                 Writer::Parquet(Box::new(writer))
             }
             #[cfg(feature = "parquet")]
             Writer::Parquet(mut writer) => {
+                self.missed += block.missed();
                 writer.block(&block).map_err(told)?;
                 Writer::Parquet(writer)
             }

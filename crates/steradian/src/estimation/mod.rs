@@ -20,7 +20,8 @@
 //!
 //! # When it stops
 //! A tolerance ε is met when t · std_error ≤ max(ε |v|, ε · 1 % of the mean over the streams of the sensor, absolute tolerance). See
-//! [`Stopping`] for the modes and [`estimate`] for the procedure.
+//! [`Stopping`] for the modes and [`estimate`] for the procedure. The streams of a sensor are
+//! those that are estimated together: of a sensor that is measured in blocks, those of one block.
 //!
 //! # Same bits
 //! Sums are folded over runs of samples whose boundaries depend on the sample index alone, in the order of the index; so the

@@ -113,9 +113,9 @@ impl Replicates {
     #[must_use]
     pub fn combine(&self, weights: &[f64]) -> Estimate {
         assert_eq!(weights.len(), self.columns(), "a weight for every column");
-        let means = self.means(weights);
-        let (value, variance) = mean_and_variance(means.clone());
-        if means.clone().all(|mean| mean == 0.0) {
+        let means: Vec<f64> = self.means(weights).collect();
+        let (value, variance) = mean_and_variance(means.iter().copied());
+        if means.iter().all(|mean| *mean == 0.0) {
             let unknown = Estimate::sampled(0.0, f64::INFINITY, 1.0, false);
             return Estimate {
                 upper_bound: self.bound(weights),
@@ -125,7 +125,7 @@ impl Replicates {
         Estimate::sampled(
             value,
             variance.sqrt(),
-            self.factor(means.count()),
+            self.factor(means.len()),
             self.converged,
         )
     }

@@ -9,7 +9,8 @@
 //!    has been lucky so far. The pilot is discarded: a result whose length depended on its own samples would be biased.
 //! 3. *Final*: n samples with fresh random numbers. A stream that misses its tolerance runs once more, afresh, with 2n.
 //!
-//! The floor of the tolerance is taken from the pilot, so that shards, which all run the whole pilot, agree on it.
+//! The floor of the tolerance is taken from the pilot, so that shards, which all run the whole pilot, agree on it. Where points are
+//! measured in blocks, floor and pooled variance are those of the sensor's streams in the block, and each block has its own pilot.
 
 use std::ops::ControlFlow;
 use std::time::Duration;

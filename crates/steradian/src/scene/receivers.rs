@@ -1,15 +1,17 @@
 //! Receivers of irradiance: points, grids and points spread over shapes, and the surfaces they lie on.
 
+use std::ops::Range;
+
 use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
 
-use super::Fault;
 use super::description::{Receivers, Side};
 use super::grids::layout_of;
 use super::sensors::Context;
+use super::{Fault, Scene};
 use crate::geometry::{Direction, Point, Vector};
 use crate::sampling::{block, hash};
-use crate::sensor::{Layout, Receiver, SitsOn};
-use crate::shape::{Form, ShapeId};
+use crate::sensor::{Layout, Places, Receiver, SitsOn};
+use crate::shape::{Form, ShapeId, Surfaces};
 
 /// Points a sensor may have.
 const MAX_POINTS: u64 = 10_000_000;
@@ -17,19 +19,23 @@ const MAX_POINTS: u64 = 10_000_000;
 /// Draws for each point that is wanted on a shape with openings.
 const DRAWS_PER_POINT: u32 = 64;
 
+impl Scene {
+    /// Points of a sensor with what they lie on.
+    pub fn receivers(&self, places: &Places, numbers: Range<usize>) -> Vec<Receiver> {
+        let surfaces = (&self.surfaces, &self.shape_names[..]);
+        on_surfaces(surfaces, places.range(numbers))
+    }
+}
+
 impl Context<'_> {
-    /// The receivers of the sensor of this name.
-    pub(super) fn receivers(
-        &self,
-        receivers: &Receivers,
-        sensor: &str,
-    ) -> Result<Vec<Receiver>, Fault> {
-        let (key, points) = match receivers {
-            Receivers::Points(points) => ("points", given(points)?),
+    /// Where the points of the sensor of this name are.
+    pub(super) fn places(&self, receivers: &Receivers, sensor: &str) -> Result<Places, Fault> {
+        let (key, places) = match receivers {
+            Receivers::Points(points) => ("points", Places::Listed(given(points)?)),
             Receivers::Grid { normal, .. } => {
                 let layout = layout_of(receivers)?;
-                let cells = layout.map(|layout| grid(&layout, *normal));
-                ("grid", cells.unwrap_or_else(|| Ok(vec![]))?)
+                let cells = layout.map(|layout| grid(layout, *normal)).transpose()?;
+                ("grid", cells.unwrap_or(Places::Listed(vec![])))
             }
             Receivers::Shape {
                 shape,
@@ -39,13 +45,24 @@ impl Context<'_> {
             } => {
                 check_count("count", u64::from(*count))?;
                 let points = self.spread(shape, *side, *count, *offset, sensor)?;
-                ("offset", points)
+                ("offset", Places::Listed(points))
             }
         };
-        if points.is_empty() || points.iter().any(|(point, _)| !point.is_finite()) {
+        if places.is_empty() || places.iter().any(|(point, _)| !point.is_finite()) {
             return Err(no_points(key));
         }
-        Ok(self.on_surfaces(&points))
+        Ok(places)
+    }
+
+    /// The same with what they lie on.
+    pub(super) fn receivers(
+        &self,
+        receivers: &Receivers,
+        sensor: &str,
+    ) -> Result<Vec<Receiver>, Fault> {
+        let surfaces = (self.surfaces, &self.forms.names[..]);
+        let places = self.places(receivers, sensor)?;
+        Ok(on_surfaces(surfaces, places.iter()))
     }
 
     /// Points of uniform density by area, the same in every run.
@@ -78,45 +95,54 @@ impl Context<'_> {
         }
         Ok(points)
     }
+}
 
-    /// Looks from a little above each point back down for the surface it lies on.
-    fn on_surfaces(&self, points: &[(Point, Direction)]) -> Vec<Receiver> {
-        let mut rays = RayBatch::default();
-        for (point, normal) in points {
-            let reach = self.surfaces.clearance_at(*point);
-            let start = *point + normal.to_vector() * reach;
-            let down = (-normal.to_vector()).to_array().map(|x| x as f32);
-            rays.push(self.surfaces.to_kernel(start), down, 2.0 * reach as f32);
-        }
-        let mut hits = HitBatch::default();
-        self.surfaces
-            .closest(&rays, &mut hits, InstructionSet::detect());
-        let found = hits.primitive.iter().zip(points);
-        found
-            .map(|(&primitive, &(position, normal))| self.receiver(position, normal, primitive))
-            .collect()
+/// Surfaces with the names of their shapes.
+type Named<'a> = (&'a Surfaces, &'a [String]);
+
+/// Looks from a little above each point back down for the surface it lies on.
+fn on_surfaces(
+    (surfaces, names): Named<'_>,
+    points: impl Iterator<Item = (Point, Direction)> + Clone,
+) -> Vec<Receiver> {
+    let mut rays = RayBatch::default();
+    for (point, normal) in points.clone() {
+        let reach = surfaces.clearance_at(point);
+        let start = point + normal.to_vector() * reach;
+        let down = (-normal.to_vector()).to_array().map(|x| x as f32);
+        rays.push(surfaces.to_kernel(start), down, 2.0 * reach as f32);
     }
+    let mut hits = HitBatch::default();
+    surfaces.closest(&rays, &mut hits, InstructionSet::detect());
+    let found = hits.primitive.iter().zip(points);
+    found
+        .map(|(&primitive, place)| receiver((surfaces, names), place, primitive))
+        .collect()
+}
 
-    fn receiver(&self, position: Point, normal: Direction, primitive: u32) -> Receiver {
-        if primitive == MISS {
-            return Receiver {
-                position,
-                normal,
-                sits_on: None,
-                clearance: 0.0,
-            };
-        }
-        let id = self.surfaces.shape_of(primitive);
-        let front = normal.dot(self.surfaces.normal_at(primitive, position)) > 0.0;
-        Receiver {
+fn receiver(
+    (surfaces, names): Named<'_>,
+    (position, normal): (Point, Direction),
+    primitive: u32,
+) -> Receiver {
+    if primitive == MISS {
+        return Receiver {
             position,
             normal,
-            sits_on: Some(SitsOn {
-                shape: self.forms.names[id.0 as usize].clone(),
-                side: if front { "front" } else { "back" }.into(),
-            }),
-            clearance: self.surfaces.clearance_at(position),
-        }
+            sits_on: None,
+            clearance: 0.0,
+        };
+    }
+    let id = surfaces.shape_of(primitive);
+    let front = normal.dot(surfaces.normal_at(primitive, position)) > 0.0;
+    Receiver {
+        position,
+        normal,
+        sits_on: Some(SitsOn {
+            shape: names[id.0 as usize].clone(),
+            side: if front { "front" } else { "back" }.into(),
+        }),
+        clearance: surfaces.clearance_at(position),
     }
 }
 
@@ -156,10 +182,9 @@ fn given(points: &[(Point, Vector)]) -> Result<Vec<(Point, Direction)>, Fault> {
 }
 
 /// Centres of a grid's cells.
-fn grid(layout: &Layout, normal: Option<Vector>) -> Result<Vec<(Point, Direction)>, Fault> {
+fn grid(layout: Layout, normal: Option<Vector>) -> Result<Places, Fault> {
     check_count("count", layout.cells())?;
     let [first, second] = layout.edges.map(Vector::from);
     let normal = direction_of("grid", normal.unwrap_or(first.cross(second)))?;
-    let centre = |index| (Point::from(layout.centre(index)), normal);
-    Ok((0..layout.cells()).map(centre).collect())
+    Ok(Places::Grid { layout, normal })
 }

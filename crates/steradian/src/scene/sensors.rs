@@ -172,7 +172,7 @@ impl Context<'_> {
     fn kind(&self, sensor: &SensorDescription) -> Result<Kind, Fault> {
         match &sensor.kind {
             SensorKind::Irradiance(receivers) => {
-                Ok(Kind::Irradiance(self.receivers(receivers, &sensor.name)?))
+                Ok(Kind::Irradiance(self.places(receivers, &sensor.name)?))
             }
             SensorKind::ScalarIrradiance { points } => {
                 let finite = points.iter().all(|point| point.is_finite());
@@ -277,9 +277,9 @@ impl Context<'_> {
             let solid = LazyCell::new(|| Solid::of(&shape.form));
             let encloses = |point: Point| solid.is_some_and(|solid| solid.encloses(point, margin));
             for (index, sensor) in sensors {
-                let (key, points) = positions(&sensor.kind);
+                let (key, mut points) = positions(&sensor.kind);
                 let inside = |point: &Point| bounds.contains(*point) && encloses(*point);
-                if let Some(point) = points.into_iter().find(inside) {
+                if let Some(point) = points.find(inside) {
                     let (own, at) = (&sensor.name, point.to_array());
                     let message =
                         format!("sensor `{own}` at {at:?} lies inside the solid `{name}`");
@@ -335,20 +335,17 @@ fn quantities(kind: &Kind) -> Vec<Quantity> {
 }
 
 /// Where a sensor is, and the key that says so; a surface is nowhere in particular.
-fn positions(kind: &Kind) -> (&'static str, Vec<Point>) {
+fn positions(kind: &Kind) -> (&'static str, Box<dyn Iterator<Item = Point> + '_>) {
     match kind {
-        Kind::Irradiance(receivers) => {
-            let position = receivers.iter().map(|receiver| receiver.position);
-            ("points", position.collect())
-        }
-        Kind::ScalarIrradiance(points) => ("points", points.clone()),
+        Kind::Irradiance(places) => ("points", Box::new(places.iter().map(|place| place.0))),
+        Kind::ScalarIrradiance(points) => ("points", Box::new(points.iter().copied())),
         Kind::Cylindrical(cylinders) => {
             let position = cylinders.iter().map(|cylinder| cylinder.position);
-            ("points", position.collect())
+            ("points", Box::new(position))
         }
-        Kind::Radiance(rays) => ("rays", rays.iter().map(|ray| ray.0).collect()),
-        Kind::Camera(camera) => ("position", vec![camera.position]),
-        Kind::Flux { .. } | Kind::Balance(_) => ("surface", vec![]),
+        Kind::Radiance(rays) => ("rays", Box::new(rays.iter().map(|ray| ray.0))),
+        Kind::Camera(camera) => ("position", Box::new(std::iter::once(camera.position))),
+        Kind::Flux { .. } | Kind::Balance(_) => ("surface", Box::new(std::iter::empty())),
     }
 }
 

@@ -135,7 +135,8 @@ fn place_of(scene: &Scene, light: &Light) -> Option<Hull> {
 fn hulls(scene: &Scene, sensor: &Sensor) -> Vec<Hull> {
     let surfaces = scene.surfaces();
     match &sensor.kind {
-        SensorKind::Irradiance(receivers) => {
+        SensorKind::Irradiance(places) => {
+            let receivers = scene.receivers(places, 0..places.len());
             // Off the surface that they may lie on.
             let off = |receiver: &Receiver| receiver.clearance.max(4.0 * surfaces.clearance());
             let start = |one: &Receiver| vec![one.position + one.normal * off(one)];

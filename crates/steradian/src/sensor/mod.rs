@@ -14,12 +14,14 @@
 mod balance;
 mod camera;
 mod layout;
+mod places;
 pub(crate) mod readout;
 
 pub use balance::{Account, Entry, Term};
 pub use camera::{Camera, Fisheye, Projection};
 pub use layout::Layout;
 pub(crate) use layout::greatest_spacing;
+pub use places::Places;
 pub use readout::{Bins, Readout, Response, readouts};
 
 use serde::{Deserialize, Serialize};
@@ -108,8 +110,8 @@ pub struct Sensor {
 /// The closed set of sensors.
 #[derive(Clone, Debug)]
 pub enum Kind {
-    /// Irradiance at points.
-    Irradiance(Vec<Receiver>),
+    /// Irradiance at points; the scene tells what they lie on.
+    Irradiance(Places),
     /// Scalar irradiance at points.
     ScalarIrradiance(Vec<Point>),
     /// Cylindrical or semicylindrical irradiance at points.

@@ -110,7 +110,7 @@ struct Size {
 
 fn size(scene: &Scene, sensor: usize) -> Size {
     let (points, can_be_cut) = match &scene.sensors()[sensor].kind {
-        Kind::Irradiance(receivers) => (receivers.len(), true),
+        Kind::Irradiance(places) => (places.len(), true),
         Kind::ScalarIrradiance(points) => (points.len(), true),
         Kind::Cylindrical(cylinders) => (cylinders.len(), true),
         Kind::Radiance(rays) => (rays.len(), true),
@@ -172,6 +172,7 @@ struct Run<'r, 'a> {
     weights: Vec<Vec<f64>>,
     /// By chosen sensor; none unless the run is spectral.
     densities: Vec<WavelengthDensity>,
+    unsampled: Vec<String>,
 }
 
 impl<'r, 'a> Run<'r, 'a> {
@@ -191,6 +192,7 @@ impl<'r, 'a> Run<'r, 'a> {
             densities: sensors()
                 .filter_map(|sensor| channels::density(scene, sensor))
                 .collect(),
+            unsampled: unsampled(scene),
             scene,
             options,
             tables,
@@ -217,7 +219,38 @@ impl<'r, 'a> Run<'r, 'a> {
             let meters = Meters::new(self.tables, self.options, streams, shared);
             estimate(&meters, &plan, watch)?
         };
-        Ok(record(self.scene, self.options, parts, replicates))
+        Ok(self.record(parts, replicates))
+    }
+
+    fn record(&self, parts: Vec<Part>, replicates: Vec<Replicates>) -> Measurements {
+        let (scene, options) = (self.scene, self.options);
+        // Streams are numbered in the order of the readings.
+        let mut replicates = replicates.into_iter();
+        let mut sensor = |part: Part| SensorRecord {
+            name: part.sensor.name.clone(),
+            quantities: part.sensor.readouts.clone(),
+            layout: part.sensor.layout,
+            points: part
+                .readings
+                .into_iter()
+                .map(|reading| point(reading, &mut replicates))
+                .collect(),
+        };
+        let lanes = scene.lanes().names().iter().cloned();
+        Measurements {
+            scene_name: scene.name().into(),
+            seed: options.plan.seed,
+            confidence: options.plan.confidence,
+            luminous_efficacy: scene.reported_efficacy(),
+            max_depth: options.max_depth,
+            lanes: lanes.map(|name| LaneRecord { name }).collect(),
+            groups: scene.groups().to_vec(),
+            dimming: Dimming::new(scene.schedules().to_vec()),
+            sensors: parts.into_iter().map(&mut sensor).collect(),
+            unsampled: self.unsampled.clone(),
+            warnings: scene.warnings().to_vec(),
+            shard: options.plan.shard,
+        }
     }
 
     /// What is in these blocks, by sensor.
@@ -345,41 +378,6 @@ fn scalar_weights(scene: &Scene, readouts: &[Readout]) -> Vec<f64> {
     (0..scene.columns())
         .map(|column| lanes[column % lanes.len()])
         .collect()
-}
-
-fn record(
-    scene: &Scene,
-    options: &MeasureOptions,
-    parts: Vec<Part>,
-    replicates: Vec<Replicates>,
-) -> Measurements {
-    // Streams are numbered in the order of the readings.
-    let mut replicates = replicates.into_iter();
-    let mut sensor = |part: Part| SensorRecord {
-        name: part.sensor.name.clone(),
-        quantities: part.sensor.readouts.clone(),
-        layout: part.sensor.layout,
-        points: part
-            .readings
-            .into_iter()
-            .map(|reading| point(reading, &mut replicates))
-            .collect(),
-    };
-    let lanes = scene.lanes().names().iter().cloned();
-    Measurements {
-        scene_name: scene.name().into(),
-        seed: options.plan.seed,
-        confidence: options.plan.confidence,
-        luminous_efficacy: scene.reported_efficacy(),
-        max_depth: options.max_depth,
-        lanes: lanes.map(|name| LaneRecord { name }).collect(),
-        groups: scene.groups().to_vec(),
-        dimming: Dimming::new(scene.schedules().to_vec()),
-        sensors: parts.into_iter().map(&mut sensor).collect(),
-        unsampled: unsampled(scene),
-        warnings: scene.warnings().to_vec(),
-        shard: options.plan.shard,
-    }
 }
 
 fn point(reading: Prepared, replicates: &mut impl Iterator<Item = Replicates>) -> PointRecord {

@@ -136,10 +136,11 @@ impl<'t, 'a> Context<'t, 'a> {
     pub fn prepare(&self, sensor: &'a Sensor, points: Range<usize>) -> Vec<Prepared<'a>> {
         let first = points.start;
         match &sensor.kind {
-            Kind::Irradiance(receivers) => (first..)
-                .zip(&receivers[points])
-                .map(|(i, receiver)| self.irradiance(i, receiver))
-                .collect(),
+            Kind::Irradiance(places) => {
+                let receivers = self.scene.receivers(places, points);
+                let receivers = (first..).zip(&receivers);
+                receivers.map(|(i, one)| self.irradiance(i, one)).collect()
+            }
             Kind::ScalarIrradiance(all) => (first..)
                 .zip(&all[points])
                 .map(|(i, point)| self.scalar(i, *point))

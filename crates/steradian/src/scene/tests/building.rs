@@ -260,9 +260,9 @@ fn materials_of_front_and_back() {
     assert_eq!(sides(2), [&Model::Black; 2]);
 }
 
-fn receivers(scene: &Scene, sensor: usize) -> &[Receiver] {
+fn receivers(scene: &Scene, sensor: usize) -> Vec<Receiver> {
     match &scene.sensors()[sensor].kind {
-        Sensing::Irradiance(receivers) => receivers,
+        Sensing::Irradiance(places) => scene.receivers(places, 0..places.len()),
         other => panic!("{other:?}"),
     }
 }
@@ -279,7 +279,8 @@ fn receivers_know_what_they_sit_on() {
         SensorKind::Irradiance(Receivers::Points(points)),
     ));
     let scene = scene(&description);
-    let sides = receivers(&scene, 1).iter().map(|receiver| {
+    let found = receivers(&scene, 1);
+    let sides = found.iter().map(|receiver| {
         let on = receiver.sits_on.as_ref();
         on.map(|on| (on.shape.as_str(), on.side.as_str()))
     });
