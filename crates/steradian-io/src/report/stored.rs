@@ -213,6 +213,20 @@ mod tests {
         assert_eq!(missing.unwrap_err().to_string(), "no.json: no such file");
     }
 
+    /// A run that was stopped may have points without samples: their readings are unknown, and so are statistics with them.
+    #[test]
+    fn points_without_samples_are_read() {
+        let mut stored = serde_json::to_value(measurements()).unwrap();
+        let replicates = &mut stored["sensors"][0]["points"][1]["replicates"];
+        replicates["samples"] = vec![0; 4].into();
+        replicates["sums"] = vec![0.0; 16].into();
+        let stopped: Measurements = serde_json::from_value(stored).unwrap();
+        let text = encode(&run(&stopped)).unwrap();
+        let read = read_text(&text).unwrap().measurements;
+        assert!(read.readings()[1].is_dark() && !read.converged());
+        assert!(read.statistics()[0].mean.std_error.is_infinite());
+    }
+
     /// Each would be an index out of bounds when readings are derived.
     #[test]
     fn lists_of_wrong_length_are_told() {

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 use steradian::measurement::{Gathered, Measurements, Unmeasured};
 
+#[cfg(feature = "parquet")]
 use super::error::ReportError;
 use super::run::Run;
 use super::spool::Spool;
@@ -234,6 +235,7 @@ fn broken() -> io::Error {
 }
 
 /// A failure of the system as it is, others with their message.
+#[cfg(feature = "parquet")]
 fn told(error: ReportError) -> io::Error {
     match error {
         ReportError::Output(source) => source,

@@ -53,7 +53,9 @@ impl Replicates {
     /// Whether sums, samples and confidence are such as a run of so many columns has.
     pub(crate) fn are_of(&self, columns: usize) -> bool {
         let cells = self.samples.len() * columns;
-        let sampled = self.samples.iter().any(|samples| *samples > 0);
+        // A run that was stopped need not have come to it.
+        let sampled = self.samples.iter().any(|samples| *samples > 0)
+            || self.sums.iter().all(|sum| *sum == 0.0);
         let within = self.confidence > 0.0 && self.confidence < 1.0;
         self.columns() == columns && self.sums.len() == cells && sampled && within
     }
