@@ -89,7 +89,7 @@ impl Surfaces {
     pub fn new(shapes: Vec<Placed>, anchor: Point) -> Result<Self, BuildError> {
         let bounds = bounds_of(&shapes);
         let origin = bounds.and_then(|bounds| bounds.center()).unwrap_or(anchor);
-        let mut builder = Builder::new(origin);
+        let mut builder = Builder::new(origin, &shapes);
         for (index, shape) in shapes.iter().enumerate() {
             builder.add(ShapeId(index as u32), shape);
         }
@@ -252,12 +252,19 @@ struct Builder {
 }
 
 impl Builder {
-    fn new(origin: Point) -> Self {
+    /// With room for what the shapes are made of: a vector that grows holds everything twice.
+    fn new(origin: Point, shapes: &[Placed]) -> Self {
+        let count = |of: fn(&Form) -> usize| shapes.iter().map(|shape| of(&shape.form)).sum();
+        let (vertices, triangles) = (count(vertex_count), count(triangle_count));
         Self {
             origin,
-            geometry: Geometry::default(),
-            triangles: Vec::new(),
-            triangle_shape: Vec::new(),
+            geometry: Geometry {
+                positions: Vec::with_capacity(vertices),
+                triangles: Vec::with_capacity(triangles),
+                quadrics: Vec::new(),
+            },
+            triangles: Vec::with_capacity(triangles),
+            triangle_shape: Vec::with_capacity(triangles),
             quadrics: Vec::new(),
             quadric_shape: Vec::new(),
         }
@@ -348,6 +355,22 @@ impl Builder {
     fn rebased(&self, point: Point) -> [f64; 3] {
         let p = point - self.origin;
         [p.x, p.y, p.z]
+    }
+}
+
+fn vertex_count(form: &Form) -> usize {
+    match form {
+        Form::Parallelogram(_) => 4,
+        Form::Mesh(mesh) => mesh.vertices.len(),
+        Form::Sphere(_) | Form::Disc(_) | Form::Plane { .. } => 0,
+    }
+}
+
+fn triangle_count(form: &Form) -> usize {
+    match form {
+        Form::Parallelogram(_) => 2,
+        Form::Mesh(mesh) => mesh.triangles.len(),
+        Form::Sphere(_) | Form::Disc(_) | Form::Plane { .. } => 0,
     }
 }
 
