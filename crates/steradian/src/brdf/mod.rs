@@ -31,6 +31,7 @@ mod diffuse_transmission;
 mod eon;
 mod error;
 pub mod fresnel;
+mod gloss;
 mod lambertian;
 pub mod measured;
 mod microfacet;
@@ -50,6 +51,7 @@ pub use complex_index::ComplexIndex;
 pub use diffuse_transmission::DiffuseTransmission;
 pub use eon::EnergyPreservingOrenNayar;
 pub use error::ModelError;
+pub(crate) use gloss::Gloss;
 pub use lambertian::Lambertian;
 pub use measured::Measured;
 pub use microfacet::{Facets, RoughConductor, RoughDielectric, RoughPlastic, Shadowing, Slopes};
@@ -237,6 +239,16 @@ impl Brdf {
             Self::RoughDielectric(model) => Some(model.eta()),
             Self::Mixture(model) => model.interior_index(),
             Self::Principled(model) => model.interior_index(),
+            _ => None,
+        }
+    }
+
+    /// The highlight of light reflected to `wo`, of models that know theirs.
+    pub(crate) fn gloss(&self, wo: Direction) -> Option<Gloss> {
+        match self {
+            Self::RoughConductor(model) => Some(model.gloss(wo)),
+            Self::RoughPlastic(model) => model.gloss(wo),
+            Self::Principled(model) => model.gloss(wo),
             _ => None,
         }
     }

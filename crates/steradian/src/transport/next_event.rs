@@ -100,6 +100,7 @@ impl NextEvent<'_> {
         Receiving {
             point: Vec3::from_array(place.point),
             normal: (!self.is_spherical()).then(|| Vec3::from_array(place.normal)),
+            highlight: None,
         }
     }
 

@@ -22,7 +22,7 @@ use glam::Vec3;
 use super::choice::choose;
 use super::columns::{Flight, Flights, Luggage, Place, Shadows, Vertices, Workspace};
 use super::interaction::Hit;
-use super::light_tree::Receiving;
+use super::light_tree::{Highlight, Receiving};
 use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter::survives;
@@ -188,7 +188,16 @@ impl<'a> Surface<'a> {
         Receiving {
             point: Vec3::from_array(place.point),
             normal: (!self.side.transmits).then(|| Vec3::from_array(place.normal)),
+            highlight: self.highlight(),
         }
+    }
+
+    fn highlight(&self) -> Option<Highlight> {
+        Some(Highlight {
+            viewer: Vec3::from_array(self.encounter.viewer),
+            normal: Vec3::from_array(self.frame.normal().to_array().map(|x| x as f32)),
+            gloss: self.brdf.gloss(self.wo)?,
+        })
     }
 
     /// ρ |cosθ_i| and the density of a direction, and whether it leads through the surface; `None` if nothing comes from

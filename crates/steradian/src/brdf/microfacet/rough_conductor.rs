@@ -43,7 +43,7 @@ use super::table::Table;
 use crate::brdf::error::share;
 use crate::brdf::fresnel::schlick_rise;
 use crate::brdf::sampling::choose;
-use crate::brdf::{ComplexIndex, ModelError, Scatter, to_spectrum};
+use crate::brdf::{ComplexIndex, Gloss, ModelError, Scatter, to_spectrum};
 use crate::geometry::Direction;
 use crate::quantity::Spectrum;
 
@@ -244,6 +244,11 @@ impl RoughConductor {
                 + grazing[lane] * rise
                 + later.reflectance[lane] * missing
         })
+    }
+
+    /// Of the first term.
+    pub(in crate::brdf) fn gloss(&self, wo: Direction) -> Gloss {
+        Gloss::of_facets(self.facets, 1.0 - self.later_share(wo))
     }
 
     /// 1 − E(d_e), or 0 for single scattering.

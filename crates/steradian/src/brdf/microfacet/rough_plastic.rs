@@ -35,7 +35,7 @@ use super::shelf::Blend;
 use super::{Facets, RoughDielectric, half_way};
 use crate::brdf::error::{in_range, share};
 use crate::brdf::sampling::{above, choose_part, cosine_direction};
-use crate::brdf::{ModelError, Scatter, to_spectrum};
+use crate::brdf::{Gloss, ModelError, Scatter, to_spectrum};
 use crate::geometry::Direction;
 use crate::quantity::Spectrum;
 
@@ -166,6 +166,14 @@ impl RoughPlastic {
             self.base
                 .map(|base| parts.first + parts.later + base * through),
         )
+    }
+
+    /// Of the coat's first lobe.
+    pub(in crate::brdf) fn gloss(&self, wo: Direction) -> Option<Gloss> {
+        let parts = self.parts(wo);
+        let mean = 0.25 * self.base.iter().sum::<f64>();
+        let all = parts.first + parts.later + mean * parts.through * self.average;
+        (all > 0.0).then(|| Gloss::of_facets(self.facets, parts.first / all))
     }
 
     fn parts(&self, direction: Direction) -> Parts {

@@ -49,7 +49,7 @@ use base::{Base, Interface, SMOOTH, Through};
 use sheen::Sheen;
 
 use super::sampling::{choose_part, cosine_direction, flipped, hemisphere_direction};
-use super::{Facets, ModelError, RoughConductor, Scatter, Slopes, to_spectrum};
+use super::{Facets, Gloss, ModelError, RoughConductor, Scatter, Slopes, to_spectrum};
 use crate::geometry::{Direction, Vector};
 use crate::quantity::Spectrum;
 
@@ -131,6 +131,18 @@ impl Principled {
             Through::Solid { interface, .. } => Some(interface.eta()),
             _ => None,
         }
+    }
+
+    /// Of the base, without a coat and where no light goes through.
+    pub(super) fn gloss(&self, wo: Direction) -> Option<Gloss> {
+        let is_plain = self.coat.is_none() && matches!(self.base.through, Through::Not);
+        if !is_plain || wo.z() <= 0.0 {
+            return None;
+        }
+        let mirrored = 0.25 * self.base.gloss.tabulated_albedo(wo).iter().sum::<f64>();
+        let all = mirrored + self.base.diffuse_albedo(wo);
+        let gloss = self.base.gloss.gloss(wo);
+        (all > 0.0).then(|| gloss.scaled(mirrored / all))
     }
 
     /// In the frame of the tangent.

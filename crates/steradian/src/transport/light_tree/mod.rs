@@ -24,11 +24,13 @@
 mod bounds;
 mod build;
 mod emitters;
+mod highlight;
 mod node;
 mod selection;
 
 use bounds::Bounds;
 use build::Builder;
+pub(super) use highlight::Highlight;
 pub(super) use node::Receiving;
 use node::{Below, Node, WIDTH};
 pub(super) use selection::Selection;

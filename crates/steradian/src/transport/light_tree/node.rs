@@ -21,6 +21,9 @@
 //! more than that, and R by the rounding of coordinates. The four balls are computed side by side, in the same order of operations on
 //! every machine.
 //!
+//! A surface with a [highlight](super::highlight) puts s̄ (1 − w) + w t l in the place of s̄, where w is the share of its light that the
+//! highlight reflects.
+//!
 //! Source of the form: A. Conty Estevez, C. Kulla (2018), eq. 3. Its cosines are bounds over the ball, cos max(θ − θ_u, 0); with means a
 //! sample's standard deviation is a half to a third of theirs under lamps in rows below a ceiling.
 
@@ -29,6 +32,7 @@ use std::f64::consts::PI;
 use glam::{Vec3, Vec4};
 
 use super::bounds::Bounds;
+use super::highlight::Highlight;
 
 /// By how much sines and cosines may be wrong: 16 roundings of 2⁻²⁴ are 10⁻⁶.
 const SLACK: f32 = 4e-6;
@@ -42,6 +46,8 @@ pub(in crate::transport) struct Receiving {
     pub point: Vec3,
     /// Of a receiver that takes no light from behind.
     pub normal: Option<Vec3>,
+    /// Of such a receiver, if it has one.
+    pub highlight: Option<Highlight>,
 }
 
 /// Balls of lights in single precision, column by column, with what follows below each. A ball that is missing has no intensity.
@@ -124,7 +130,11 @@ impl Node {
         let r = self.radius * per_distance + SLACK;
         let received = at.normal.map_or(Vec4::ONE, |normal| {
             let cos = -dot(normal.to_array().map(Vec4::splat), way);
-            mean(cos, cos, r)
+            let diffuse = mean(cos, cos, r);
+            at.highlight.map_or(diffuse, |highlight| {
+                let share = Vec4::splat(highlight.gloss.share);
+                diffuse + share * (within(cos, r) * highlight.over(way, r) - diffuse)
+            })
         });
         let near = squared.max(self.radius * self.radius * (1.0 / 3.0));
         (self.intensity * received * self.emitted(way, r) / near).to_array()
@@ -147,12 +157,12 @@ impl Node {
 }
 
 #[inline(always)]
-fn dot(a: [Vec4; 3], b: [Vec4; 3]) -> Vec4 {
+pub(super) fn dot(a: [Vec4; 3], b: [Vec4; 3]) -> Vec4 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-fn cross(a: [Vec4; 3], b: [Vec4; 3]) -> [Vec4; 3] {
+pub(super) fn cross(a: [Vec4; 3], b: [Vec4; 3]) -> [Vec4; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -168,8 +178,13 @@ fn root(x: Vec4) -> Vec4 {
 /// f.
 #[inline(always)]
 fn mean(cos: Vec4, inside: Vec4, r: Vec4) -> Vec4 {
-    let within = (inside / r * 0.5 + 0.5).clamp(Vec4::ZERO, Vec4::ONE);
-    within * cos.max((cos + r) * 0.5).max(Vec4::ZERO)
+    within(inside, r) * cos.max((cos + r) * 0.5).max(Vec4::ZERO)
+}
+
+/// t.
+#[inline(always)]
+fn within(inside: Vec4, r: Vec4) -> Vec4 {
+    (inside / r * 0.5 + 0.5).clamp(Vec4::ZERO, Vec4::ONE)
 }
 
 fn cos_sin(angle: f64) -> [f32; 2] {
