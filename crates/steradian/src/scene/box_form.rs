@@ -1,7 +1,8 @@
 //! Boxes: six faces with their own materials, and rectangular openings in them.
 
 use super::description::Opening;
-use crate::geometry::{Bounds, Point, Polygon};
+use crate::geometry::{Bounds, Point, Polygon, Transform};
+use crate::shape::Parallelogram;
 
 /// What [`faces_of`] knows.
 pub(super) const FACE_NAMES: &str = "x-, x+, y-, y+, z- (floor), z+ (ceiling) and walls";
@@ -72,6 +73,25 @@ pub(super) fn box_mesh(
         }
     }
     Ok(mesh)
+}
+
+/// The openings of a box that may be seen through, as parallelograms whose front is inside.
+pub(super) fn portals(
+    (min, max): (Point, Point),
+    openings: &[Opening],
+    transform: &Transform,
+) -> Vec<Parallelogram> {
+    let middle = transform.point(min + (max - min) * 0.5);
+    let portal = |opening: &Opening| {
+        let corners = opening_corners(opening.face_index()?, opening, (min, max)).ok()?;
+        let [a, b, d] = [0, 1, 3].map(|k| transform.point(corners[k]));
+        let portal = Parallelogram::new(a, [b - a, d - a])?;
+        if portal.normal.dot(middle - a) > 0.0 {
+            return Some(portal);
+        }
+        Parallelogram::new(a, [d - a, b - a])
+    };
+    openings.iter().filter_map(portal).collect()
 }
 
 fn pierced_face(

@@ -1,13 +1,13 @@
 //! Shapes: the forms of each, one for each copy of a repeat, and what their parts are made of.
 
-use super::box_form::{FACE_NAMES, faces_of};
+use super::box_form::{FACE_NAMES, faces_of, portals};
 use super::description::{self, GeometryDescription, Opening, Repeat, ShapeDescription};
 use super::geometry::{Shaped, form};
 use super::materials::Materials;
 use super::{Fault, Part, PartProperties, Problem};
 use crate::geometry::{Transform, Vector};
 use crate::material::{MaterialId, Pattern};
-use crate::shape::{Form, PartId, Placed, ShapeId};
+use crate::shape::{Form, Parallelogram, PartId, Placed, ShapeId};
 
 /// Copies a repeat may make.
 const MAX_COPIES: u64 = 10_000_000;
@@ -18,6 +18,8 @@ pub(super) struct Forms {
     pub placed: Vec<Placed>,
     pub names: Vec<String>,
     pub parts: Vec<PartProperties>,
+    /// Openings in the walls of rooms, through which light comes in.
+    pub portals: Vec<Parallelogram>,
     /// The forms of each described shape.
     pub of_description: Vec<std::ops::Range<usize>>,
 }
@@ -65,7 +67,11 @@ pub(super) fn prepare(
                 Ok(shaped)
             });
             match shaped {
-                Ok(shaped) => add(&mut forms, shape, index, copy, shaped, &sides),
+                Ok(shaped) => {
+                    let portals = portals_of(&shape.geometry, &transform, (&sides, materials));
+                    forms.portals.extend(portals);
+                    add(&mut forms, shape, index, copy, shaped, &sides);
+                }
                 Err((key, message)) => {
                     problems.push(Problem::at(part, key, message));
                     break;
@@ -75,6 +81,34 @@ pub(super) fn prepare(
         forms.of_description.push(first..forms.placed.len());
     }
     forms
+}
+
+/// The openings of a room that hold nothing, or what lets light pass straight.
+fn portals_of(
+    geometry: &GeometryDescription,
+    transform: &Transform,
+    (sides, materials): (&[Sides], &Materials),
+) -> Vec<Parallelogram> {
+    let GeometryDescription::Box {
+        min,
+        max,
+        inside: true,
+        openings,
+        ..
+    } = geometry
+    else {
+        return vec![];
+    };
+    let passes = |id: &MaterialId| {
+        let material = &materials.materials[id.0 as usize].1;
+        material.is_pane() || material.opacity.is_some()
+    };
+    let is_open = |(opening, sides): &(&Opening, &Sides)| {
+        opening.material.is_none() || sides.iter().any(passes)
+    };
+    let open = openings.iter().zip(&sides[6..]).filter(is_open);
+    let open: Vec<_> = open.map(|(opening, _)| opening.clone()).collect();
+    portals((*min, *max), &open, transform)
 }
 
 fn add(

@@ -39,7 +39,7 @@ use crate::light::{Kind, Light, LightId};
 use crate::material::{Material, MaterialId};
 use crate::quantity::LuminousEfficacy;
 use crate::sensor::Sensor;
-use crate::shape::{ShapeId, Surfaces};
+use crate::shape::{Parallelogram, ShapeId, Surfaces};
 use crate::spectrum::{Curve, CurveId, Lanes, MAX_LANES};
 use crate::time::Schedule;
 use description::{MaterialDescription, MaterialModel, SceneDescription};
@@ -70,6 +70,7 @@ pub struct Scene {
     lights: Vec<Light>,
     curves: Vec<Arc<Curve>>,
     sensors: Vec<Sensor>,
+    portals: Vec<Parallelogram>,
     warnings: Vec<String>,
     /// No material lets light pass.
     is_opaque: bool,
@@ -136,6 +137,7 @@ impl Scene {
             schedules: lights.schedules,
             surfaces,
             shape_names: forms.names,
+            portals: forms.portals,
             parts: forms.parts,
             materials: materials.materials,
             lights: lights.lights,
@@ -190,6 +192,11 @@ impl Scene {
     /// Name of a shape, or its kind and number.
     pub fn shape_name(&self, id: ShapeId) -> &str {
         &self.shape_names[id.0 as usize]
+    }
+
+    /// Openings in the walls of rooms that hold nothing or what lets light pass straight; their fronts are inside.
+    pub fn portals(&self) -> &[Parallelogram] {
+        &self.portals
     }
 
     /// Parts of shapes, by number.

@@ -9,7 +9,7 @@ use super::tables::{Emitter, EmitterShape, Lanes4, Model, NO_TINT, Side, Tables,
 use super::towards::triangle_of;
 use crate::brdf::Brdf;
 use crate::geometry::{Direction, Frame, Point, Vector};
-use crate::light::EnvironmentMap;
+use crate::light::{EnvironmentMap, Kind};
 use crate::material::Site;
 use crate::shape::{Form, along_u};
 use crate::spectrum::Wavelengths;
@@ -142,6 +142,16 @@ impl Tables<'_> {
             // Weights of the first triangle, which continue over the second.
             EmitterShape::Parallelogram { .. } => site_of(form, 0, [u[0] - u[1], u[1]], point),
             _ => site_of(form, 0, [0.0; 2], point),
+        }
+    }
+}
+
+impl Tables<'_> {
+    /// What a light from everywhere shows of a direction.
+    pub fn site_of_everywhere(&self, emitter: &Emitter, direction: [f32; 3]) -> Site {
+        match &self.scene.lights()[emitter.light].kind {
+            Kind::EnvironmentMap { map, .. } => site_towards(map, direction),
+            _ => Site::NOWHERE,
         }
     }
 }

@@ -8,7 +8,7 @@ use super::light_tree::Receiving;
 use super::media::AIR;
 use super::profile::StopWatch;
 use super::scattering::Encounter;
-use super::tables::{Emitter, Tables};
+use super::tables::{Emitter, EmitterShape, Tables};
 use super::transmittance::Transmittance;
 use crate::material::Site;
 use crate::spectrum::{MAX_LANES, Wavelengths};
@@ -333,6 +333,9 @@ impl Shadows {
     /// What the emitter's surface knows of the point that row `i` sampled.
     pub fn site(&self, tables: &Tables<'_>, emitter: &Emitter, i: usize) -> Site {
         let rays = &self.rays;
+        if let EmitterShape::Portal(_) = emitter.shape {
+            return tables.site_of_everywhere(emitter, rays.ray(i).direction);
+        }
         let end = [
             rays.origin_x[i] + rays.direction_x[i],
             rays.origin_y[i] + rays.direction_y[i],

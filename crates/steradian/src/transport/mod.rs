@@ -25,6 +25,7 @@ mod next_event;
 mod panel;
 mod path;
 mod plain;
+mod portals;
 mod profile;
 pub mod reflection;
 mod run;

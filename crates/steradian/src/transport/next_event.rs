@@ -28,7 +28,6 @@ use super::path::Tracer;
 use super::profile::Stage;
 use super::tables::{Candidates, Choice, EmitterShape, NO_TINT, Receiver, Tables};
 use super::towards::cone;
-use crate::geometry::{Direction, Vector};
 
 /// One pass over the vertices of a batch.
 pub(super) struct NextEvent<'a> {
@@ -134,29 +133,8 @@ impl NextEvent<'_> {
             }
             return;
         }
-        let emitter = &tables.emitters[number];
-        if let (
-            EmitterShape::Parallelogram {
-                origin,
-                edges,
-                normal,
-                area,
-            },
-            false,
-        ) = (
-            &emitter.shape,
-            emitter.is_directed || tables.has_textures(&emitter.power),
-        ) {
+        if let Some(panel) = Panel::of(tables, number) {
             shadows.emitter.fill(number as u32);
-            let (origin, edges, normal) = (*origin, *edges, *normal);
-            let (area, two_sided) = (*area, emitter.two_sided);
-            let panel = Panel {
-                origin,
-                edges,
-                normal,
-                area,
-                two_sided,
-            };
             self.tracer.set.run(SamplePanel {
                 panel,
                 vertices,
@@ -199,10 +177,14 @@ impl NextEvent<'_> {
         shadows: &mut Shadows,
     ) {
         let place = vertices.place(i);
-        let Some(towards) = sampled.towards(self.tracer.tables, &place, u) else {
+        let tables = self.tracer.tables;
+        let Some(towards) = sampled.towards(tables, &place, u) else {
             return;
         };
         let Sampled { number, rate, .. } = sampled;
+        let point = Vec3::from_array(place.point);
+        let at = || self.receiving(&place);
+        let towards = tables.shared((number, rate), (point, towards), self.candidates, at);
         let cos_theta = towards.direction.dot(Vec3::from_array(place.normal));
         let (foreshortening, own_density) = if self.is_spherical() {
             (1.0, 0.25 * FRAC_1_PI)
@@ -301,21 +283,6 @@ impl NextEvent<'_> {
         workspace.watch.lap(Stage::Shadows);
     }
 
-    /// Density with which a direction in which nothing is met would have been sampled of a picture of all directions.
-    pub fn density_of(
-        tables: &Tables,
-        emitter: u32,
-        direction: [f32; 3],
-        (candidates, at): (Candidates, &Receiving),
-    ) -> f32 {
-        let EmitterShape::Everywhere(map) = &tables.emitters[emitter as usize].shape else {
-            return 0.0;
-        };
-        let direction = Direction::new(Vector::from(direction.map(f64::from)));
-        let density = direction.map_or(0.0, |direction| map.pdf(direction));
-        density as f32 * tables.rate(candidates, (emitter as usize, 0), || *at)
-    }
-
     /// Density with which a hit on an emitter would have been sampled from the ray's origin, which received light as told.
     pub fn density(
         tables: &Tables,
@@ -347,7 +314,8 @@ impl NextEvent<'_> {
             | EmitterShape::Spot { .. }
             | EmitterShape::Directional { .. }
             | EmitterShape::Luminaire { .. }
-            | EmitterShape::Everywhere(_) => 0.0,
+            | EmitterShape::Everywhere(_)
+            | EmitterShape::Portal(_) => 0.0,
         }
     }
 }

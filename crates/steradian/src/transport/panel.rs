@@ -5,6 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 use steradian_kernel::Work;
 
 use super::columns::{Shadows, Vertices};
+use super::tables::{EmitterShape, Tables};
 use super::towards::clearance;
 
 /// A parallelogram as the vectorised loop reads it.
@@ -15,6 +16,8 @@ pub(super) struct Panel {
     pub normal: [f32; 3],
     pub area: f32,
     pub two_sided: bool,
+    /// Light comes through it from beyond.
+    pub is_portal: bool,
 }
 
 /// Samples one panel at every vertex: the same numbers as [`NextEvent::sample`], over columns.
@@ -51,6 +54,7 @@ impl Work for SamplePanel<'_> {
             &mut rays.direction_z[..n],
         );
         let (t_max, gain) = (&mut rays.t_max[..n], &mut self.shadows.gain[..n]);
+        let reach = if self.panel.is_portal { f32::INFINITY } else { 1.0 };
         for i in 0..n {
             let normal = [nx[i], ny[i], nz[i]];
             let (end, weight) = self
@@ -67,13 +71,45 @@ impl Work for SamplePanel<'_> {
                 (end[1] - oy[i]) * valid,
                 (end[2] - oz[i]) * valid,
             );
-            t_max[i] = 1.0;
+            t_max[i] = reach;
             gain[i] = weight;
         }
     }
 }
 
 impl Panel {
+    /// An emitter, if it is one that is as bright everywhere and in all directions, and that no other sampler finds.
+    pub fn of(tables: &Tables<'_>, number: usize) -> Option<Self> {
+        let emitter = &tables.emitters[number];
+        if emitter.is_directed || tables.has_textures(&emitter.power) {
+            return None;
+        }
+        match &emitter.shape {
+            EmitterShape::Parallelogram {
+                origin,
+                edges,
+                normal,
+                area,
+            } => Some(Self {
+                origin: *origin,
+                edges: *edges,
+                normal: *normal,
+                area: *area,
+                two_sided: emitter.two_sided,
+                is_portal: false,
+            }),
+            EmitterShape::Portal(portal) if tables.emitters.len() == 1 => Some(Self {
+                origin: portal.origin.into(),
+                edges: portal.edges.map(Into::into),
+                normal: portal.normal.into(),
+                area: portal.area,
+                two_sided: false,
+                is_portal: true,
+            }),
+            _ => None,
+        }
+    }
+
     /// End of the shadow ray, and the weighted irradiance per unit of radiance: 0 where there is none.
     #[inline(always)]
     pub fn sample(&self, vertex: [f32; 3], normal: [f32; 3], u: [f32; 2]) -> ([f32; 3], f32) {

@@ -20,6 +20,7 @@
 //! Sources: J. Kajiya, *The rendering equation* (SIGGRAPH 1986); E. Veach, *Robust Monte Carlo methods for light
 //! transport simulation* (1997), eq. 9.13 (power heuristic) and §10.4.1 (roulette).
 
+use glam::Vec3;
 use steradian_kernel::{InstructionSet, MISS};
 
 use super::aim::is_aimed_at;
@@ -35,7 +36,7 @@ use super::profile::Stage;
 use super::scatter;
 use super::scattering::Encounter;
 use super::tables::{
-    Candidates, Emitter, EmitterShape, Lanes4, Model, NO_EMITTER, OPAQUE, Receiver, Side, Tables,
+    Candidates, Everywhere, Lanes4, Model, NO_EMITTER, OPAQUE, Receiver, Side, Tables,
 };
 use crate::material::Site;
 use crate::sampling::hash;
@@ -284,13 +285,9 @@ impl Tracer<'_> {
     ) {
         for everywhere in &self.tables.environment {
             let ray = flights.rays.ray(i);
-            let (site, weight) = match self.tables.emitters.get(everywhere.emitter as usize) {
-                Some(emitter) => {
-                    let sampled = (emitter, everywhere.emitter);
-                    self.picture(sampled, ray.direction, flights.pdf[i], place)
-                }
-                None => (Site::NOWHERE, 1.0),
-            };
+            let map = everywhere.map.as_ref();
+            let site = map.map_or(Site::NOWHERE, |map| site_towards(map, ray.direction));
+            let weight = self.everywhere_weight(everywhere, (flights, i), place);
             let radiance = &everywhere.radiance;
             let radiance = self.tables.lanes_at(radiance, wavelengths, || site);
             let slot = flights.identity.slot[i];
@@ -300,20 +297,21 @@ impl Tracer<'_> {
         }
     }
 
-    /// Where a picture of all directions is met, and the power-heuristic weight of having met it.
-    fn picture(
+    /// Power-heuristic weight of light from everywhere that flight `i` met.
+    fn everywhere_weight(
         &self,
-        (emitter, number): (&Emitter, u32),
-        direction: [f32; 3],
-        pdf: f32,
-        place: (Candidates, &Receiving),
-    ) -> (Site, f32) {
-        let EmitterShape::Everywhere(map) = &emitter.shape else {
-            return (Site::NOWHERE, 1.0);
-        };
-        let density = NextEvent::density_of(self.tables, number, direction, place);
-        let ratio = density / pdf;
-        (site_towards(map, direction), 1.0 / (1.0 + ratio * ratio))
+        everywhere: &Everywhere,
+        (flights, i): (&Flights, usize),
+        (candidates, at): (Candidates, &Receiving),
+    ) -> f32 {
+        let ray = flights.rays.ray(i);
+        let direction = Vec3::from_array(ray.direction);
+        let from = Vec3::from_array(ray.origin) - direction * flights.travelled[i];
+        let way = (from, direction);
+        let tables = self.tables;
+        let density = tables.density_of_everywhere(everywhere, way, candidates, || *at);
+        let ratio = density / flights.pdf[i];
+        1.0 / (1.0 + ratio * ratio)
     }
 
     /// Power-heuristic weight of emission that a sampled direction met.

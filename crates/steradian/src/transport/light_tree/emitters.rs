@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::bounds::{Bounds, Cone};
 use crate::light::{Beam, FarField, Kind, LuminaireLight, Planes};
 use crate::scene::Scene;
-use crate::transport::tables::{Emitter, EmitterShape};
+use crate::transport::tables::{Emitter, EmitterShape, mean};
 
 /// What a leaf of the tree stands for.
 #[derive(Copy, Clone, Debug)]
@@ -139,6 +139,17 @@ fn evenly(scene: &Scene, emitter: &Emitter, strength: f64) -> Option<Bounds> {
             beam_cone(double(*axis), beam),
             strength,
         ),
+        EmitterShape::Portal(portal) => {
+            let [a, b] = portal.edges.map(|edge| edge.as_dvec3());
+            let corners = [DVec3::ZERO, a, b, a + b];
+            let corners = corners.map(|corner| portal.origin.as_dvec3() + corner);
+            let mean = match &scene.lights()[emitter.light].kind {
+                Kind::EnvironmentMap { map, .. } => mean(map),
+                _ => 1.0,
+            };
+            let cone = Cone::of_normal(portal.normal.as_dvec3());
+            Bounds::around(corners, cone, strength * mean * f64::from(portal.area))
+        }
         EmitterShape::Directional { .. } | EmitterShape::Everywhere(_) => None,
     }
 }

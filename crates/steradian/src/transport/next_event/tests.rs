@@ -194,6 +194,7 @@ fn a_panel_over_columns_is_a_panel() {
         normal,
         area,
         two_sided: false,
+        is_portal: false,
     };
     for index in 0..64 {
         let [a, b, ..] = block::sample(12, index, 0);

@@ -1,14 +1,16 @@
 //! Emitters: the lights that next-event estimation samples, and their shares of the power.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::outlines::outline;
 use super::{Emitter, EmitterShape, NO_EMITTER, Tinted};
 use crate::geometry::{Frame, Point};
-use crate::light::{Kind, Light, Outlet};
+use crate::light::{EnvironmentMap, Kind, Light, Outlet};
 use crate::material::Tint;
 use crate::scene::Scene;
 use crate::shape::{Form, ShapeId, Sphere, SpherePort};
+use crate::transport::portals::{Portal, portals};
 
 /// Emitters, those with extent first, and the number of that of each light.
 pub(super) fn emitters(scene: &Scene, powers: &[Tinted]) -> (Vec<Emitter>, Vec<u32>) {
@@ -17,23 +19,45 @@ pub(super) fn emitters(scene: &Scene, powers: &[Tinted]) -> (Vec<Emitter>, Vec<u
         (0..lights.len()).partition(|&index| lights[index].is_delta());
     let mut emitters = Vec::new();
     let mut emitter_of_light = vec![NO_EMITTER; lights.len()];
+    let portals = portals(scene);
     for index in extent.into_iter().chain(delta) {
-        if let Some(emitter) = emitter(scene, index, powers[index]) {
+        let shapes = emitter_shape(scene, &lights[index]).into_iter();
+        let portals = portals.iter().map(|portal| EmitterShape::Portal(*portal));
+        let portals = portals.filter(|_| comes_from_everywhere(&lights[index]));
+        for shape in shapes.chain(portals) {
             emitter_of_light[index] = emitters.len() as u32;
-            emitters.push(emitter);
+            emitters.push(emitter(scene, index, powers[index], shape));
         }
     }
     (emitters, emitter_of_light)
 }
 
-fn emitter(scene: &Scene, number: usize, power: Tinted) -> Option<Emitter> {
+/// Those of a light, which stand together.
+pub(super) fn of_light(emitters: &[Emitter], light: usize) -> Range<u32> {
+    let is_of = |emitter: &&Emitter| emitter.light == light;
+    let before = |emitter: &&Emitter| emitter.light != light;
+    let count = emitters.iter().filter(is_of).count();
+    let first = match count {
+        0 => 0,
+        _ => emitters.iter().take_while(before).count(),
+    };
+    first as u32..(first + count) as u32
+}
+
+fn comes_from_everywhere(light: &Light) -> bool {
+    matches!(
+        light.kind,
+        Kind::Environment { .. } | Kind::EnvironmentMap { .. }
+    )
+}
+
+fn emitter(scene: &Scene, number: usize, power: Tinted, shape: EmitterShape) -> Emitter {
     let light = &scene.lights()[number];
-    let shape = emitter_shape(scene, light)?;
     let area = match &light.kind {
         Kind::Area(area) => Some(area),
         _ => None,
     };
-    Some(Emitter {
+    Emitter {
         shape,
         outline: area.and_then(|area| outline(scene, area)),
         light: number,
@@ -43,7 +67,7 @@ fn emitter(scene: &Scene, number: usize, power: Tinted) -> Option<Emitter> {
         two_sided: light.surface().is_some_and(|(_, two_sided)| two_sided),
         is_directed: matches!(light.kind, Kind::Luminaire(_)),
         probability: 0.0,
-    })
+    }
 }
 
 fn emitter_shape(scene: &Scene, light: &Light) -> Option<EmitterShape> {
@@ -173,6 +197,9 @@ impl Emitter {
     fn power_factor(&self, scene: &Scene, extent: f64) -> f64 {
         match &scene.lights()[self.light].kind {
             Kind::Luminaire(light) => light.far_field.flux(),
+            Kind::EnvironmentMap { map, .. } if matches!(self.shape, EmitterShape::Portal(_)) => {
+                mean(map) * self.shape.power_factor(extent)
+            }
             _ => self.shape.power_factor(extent),
         }
     }
@@ -189,6 +216,11 @@ impl Emitter {
     }
 }
 
+/// Radiance in the mean over all directions.
+pub(in crate::transport) fn mean(map: &EnvironmentMap) -> f64 {
+    map.integral() / (4.0 * std::f64::consts::PI)
+}
+
 impl EmitterShape {
     /// Flux per unit of power; parallel light counts with the cross-section of the scene.
     fn power_factor(&self, extent: f64) -> f64 {
@@ -196,7 +228,8 @@ impl EmitterShape {
         match self {
             Self::Parallelogram { area, .. }
             | Self::Triangles { area, .. }
-            | Self::Disc { area, .. } => PI * f64::from(*area),
+            | Self::Disc { area, .. }
+            | Self::Portal(Portal { area, .. }) => PI * f64::from(*area),
             Self::Sphere { radius, .. } => 4.0 * PI * PI * f64::from(radius * radius),
             Self::Point { .. } | Self::Luminaire { .. } => 4.0 * PI,
             Self::Spot { beam, .. } => beam.solid_angle().to_steradians(),

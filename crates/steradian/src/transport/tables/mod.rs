@@ -4,15 +4,18 @@ mod emitters;
 mod outlines;
 mod sides;
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use emitters::{emitters, strengths, weigh_by_power};
+pub(super) use emitters::mean;
+use emitters::{emitters, of_light, strengths, weigh_by_power};
 pub(super) use outlines::{Facet, Outline, circumscribed};
 use sides::{Tints, emitting};
 
 use super::light_tree::{Receiving, Selection};
 use super::media::Beside;
 use super::plain::PlainTriangles;
+use super::portals::Portal;
 use crate::light::{Beam, EnvironmentMap, Kind, Light};
 use crate::material::{ColorLanes, Hue, MaterialId, Opacity, Tint};
 use crate::scene::Scene;
@@ -115,12 +118,14 @@ pub(super) const OPAQUE: u32 = u32::MAX;
 pub(super) const NO_EMITTER: u32 = u32::MAX;
 
 /// Radiance from everywhere.
-#[derive(Copy, Clone, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Everywhere {
     pub group: u32,
     pub radiance: Tinted,
-    /// Number of the emitter of a picture; [`NO_EMITTER`] of what is the same in all directions.
-    pub emitter: u32,
+    /// The picture, if it is not the same in all directions.
+    pub map: Option<Arc<EnvironmentMap>>,
+    /// Numbers of the emitters that sample it: the picture and the [portals](super::portals).
+    pub emitters: Range<u32>,
 }
 
 /// A light that next-event estimation samples.
@@ -186,6 +191,8 @@ pub(super) enum EmitterShape {
     },
     /// A picture of all directions.
     Everywhere(Arc<EnvironmentMap>),
+    /// Where light from everywhere comes in.
+    Portal(Portal),
     /// A luminaire without extent.
     Luminaire {
         position: [f32; 3],
@@ -277,13 +284,18 @@ impl<'a> Tables<'a> {
         });
         let sides: Vec<_> = sides.collect();
         let lets_pass = sides.iter().any(Side::lets_pass);
-        let everywhere = |(number, light): (usize, &Light)| match &light.kind {
-            Kind::Environment { .. } | Kind::EnvironmentMap { .. } => Some(Everywhere {
+        let everywhere = |(number, light): (usize, &Light)| {
+            let map = match &light.kind {
+                Kind::Environment { .. } => None,
+                Kind::EnvironmentMap { map, .. } => Some(Arc::clone(map)),
+                _ => return None,
+            };
+            Some(Everywhere {
                 group: light.group,
                 radiance: powers[number],
-                emitter: emitter_of_light[number],
-            }),
-            _ => None,
+                map,
+                emitters: of_light(&emitters, number),
+            })
         };
         let environment = scene.lights().iter().enumerate();
         let environment = environment.filter_map(everywhere).collect();
