@@ -66,6 +66,9 @@ pub struct EnvironmentMap {
     integral: f64,
 }
 
+/// Means above which a direction is a peak.
+const PEAK: f64 = 4.0;
+
 /// A direction drawn from a map.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub struct EnvironmentSample {
@@ -118,6 +121,17 @@ impl EnvironmentMap {
     /// ∫ Y dω over all directions.
     pub fn integral(&self) -> f64 {
         self.integral
+    }
+
+    /// Share of ∫ Y dω in directions brighter than four times the mean: near 0 of skies without sun.
+    pub fn peaks(&self) -> f64 {
+        let [width, height] = self.picture.size().map(|count| count as usize);
+        let bright = PEAK * self.integral / (4.0 * PI);
+        let of_row = |row: usize| -> f64 {
+            let texels = (0..width).map(|column| luminance(&self.picture, row * width + column));
+            patch(&self.picture, row) * texels.filter(|texel| *texel > bright).sum::<f64>()
+        };
+        (0..height).map(of_row).sum::<f64>() / self.integral
     }
 
     /// ∫ Y cosθ dω of what is above the horizon.
@@ -233,6 +247,22 @@ mod tests {
         let map = map();
         let whole: f64 = (0..5).map(|row| 8.0 * patch(&map.picture, row)).sum();
         assert!((whole / (4.0 * PI) - 1.0).abs() < 1e-15);
+    }
+
+    /// A texel of 100 in a sky of 1 has the share 100 a/(100 a + 4π − a); a sky that is up to three times its mean has no peaks.
+    #[test]
+    fn a_sun_is_a_peak() {
+        let sky = |sun: f32| {
+            let texels = (0..40).map(|k| if k == 13 { sun } else { 1.0 });
+            let texels = texels.map(|grey| [grey, grey, grey, 1.0]).collect();
+            let picture = Bitmap::new(8, 5, Texels::Float(texels)).unwrap();
+            EnvironmentMap::new(&Arc::new(picture), Vector::new(1.0, 0.0, 0.0)).unwrap()
+        };
+        let sunny = sky(100.0);
+        let sun = 100.0 * patch(&sunny.picture, 1);
+        let share = sun / (sun + 4.0 * PI - 0.01 * sun);
+        assert!((sunny.peaks() / share - 1.0).abs() < 1e-12);
+        assert_eq!(sky(3.0).peaks(), 0.0);
     }
 
     /// The middle of the picture is seen towards (1, 1, 0); right of it is clockwise from above.

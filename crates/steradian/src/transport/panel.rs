@@ -54,7 +54,11 @@ impl Work for SamplePanel<'_> {
             &mut rays.direction_z[..n],
         );
         let (t_max, gain) = (&mut rays.t_max[..n], &mut self.shadows.gain[..n]);
-        let reach = if self.panel.is_portal { f32::INFINITY } else { 1.0 };
+        let reach = if self.panel.is_portal {
+            f32::INFINITY
+        } else {
+            1.0
+        };
         for i in 0..n {
             let normal = [nx[i], ny[i], nz[i]];
             let (end, weight) = self

@@ -135,7 +135,10 @@ impl Tables<'_> {
             return towards;
         };
         let way = (from, towards.direction);
-        let others = everywhere.emitters.clone().filter(|other| *other as usize != number);
+        let others = everywhere
+            .emitters
+            .clone()
+            .filter(|other| *other as usize != number);
         let others = others.map(|other| self.density_of_one(other, way, candidates, &at));
         let density = towards.density + others.sum::<f32>() / rate;
         Towards {
@@ -158,5 +161,43 @@ impl EmitterShape {
             Self::Portal(portal) => portal.density(from, direction),
             _ => 0.0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::testing::independent;
+
+    const SKEW: Portal = Portal {
+        origin: Vec3::new(1.0, 2.0, -0.5),
+        edges: [Vec3::new(0.5, 0.0, 0.0), Vec3::new(0.2, 0.0, 2.0)],
+        normal: Vec3::new(0.0, -1.0, 0.0),
+        area: 1.0,
+    };
+
+    /// The density of a direction is that with which it is drawn, to the rounding of r²/cosθ from points up to 8 m away; from behind and past
+    /// the edges it is 0.
+    #[test]
+    fn directions_have_the_density_with_which_they_are_drawn() {
+        let vertex = Vec3::new(-3.0, -4.0, 0.2);
+        for [u, v] in independent(1, 1000) {
+            let inside = [0.001 + 0.998 * u as f32, 0.001 + 0.998 * v as f32];
+            let Some(drawn) = SKEW.towards(vertex, inside) else {
+                panic!("the portal faces the vertex")
+            };
+            let density = SKEW.density(vertex, drawn.direction);
+            assert!((density / drawn.density - 1.0).abs() < 1e-5, "{density}");
+            assert!((drawn.per_power * drawn.density - 1.0).abs() < 1e-6);
+        }
+        for outside in [[-0.01, 0.5], [1.01, 0.5], [0.5, -0.01], [0.5, 1.01]] {
+            let Some(past) = SKEW.towards(vertex, outside) else {
+                panic!("its plane faces the vertex")
+            };
+            assert_eq!(SKEW.density(vertex, past.direction), 0.0);
+        }
+        let behind = Vec3::new(1.0, 5.0, 0.0);
+        assert!(SKEW.towards(behind, [0.5, 0.5]).is_none());
+        assert_eq!(SKEW.density(behind, Vec3::NEG_Y), 0.0);
     }
 }

@@ -197,8 +197,12 @@ impl Emitter {
     fn power_factor(&self, scene: &Scene, extent: f64) -> f64 {
         match &scene.lights()[self.light].kind {
             Kind::Luminaire(light) => light.far_field.flux(),
-            Kind::EnvironmentMap { map, .. } if matches!(self.shape, EmitterShape::Portal(_)) => {
-                mean(map) * self.shape.power_factor(extent)
+            Kind::EnvironmentMap { map, .. } if !scene.portals().is_empty() => {
+                mean(map)
+                    * match self.shape {
+                        EmitterShape::Portal(_) => self.shape.power_factor(extent),
+                        _ => beside_portals(scene, map),
+                    }
             }
             _ => self.shape.power_factor(extent),
         }
@@ -214,6 +218,13 @@ impl Emitter {
         tint.and_then(|tint| tint.hue.curve)
             .map_or(high - low, |id| scene.curve(id).integral([low, high]))
     }
+}
+
+/// Flux by which a picture is chosen beside portals: they find its even part, it finds its peaks.
+fn beside_portals(scene: &Scene, map: &EnvironmentMap) -> f64 {
+    let area: f64 = scene.portals().iter().map(|portal| portal.area).sum();
+    let peaks = map.peaks().min(0.99);
+    std::f64::consts::PI * area * peaks / (1.0 - peaks)
 }
 
 /// Radiance in the mean over all directions.
