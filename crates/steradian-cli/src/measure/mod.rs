@@ -151,11 +151,15 @@ struct Stop {
     /// Stop when each 95 % interval is within this quantity, in the readings' unit: 5lx, 0.1W/m2 …
     #[arg(long, value_name = "QUANTITY")]
     abs_error: Option<String>,
+    /// Stop when the 95 % intervals of a sensor are within this part of the values in the root mean square: points that vary more get more
+    /// samples
+    #[arg(long, value_name = "RATIO", value_parser = values::ratio, conflicts_with_all = ["rel_error", "abs_error", "shard", "balance"])]
+    rms_error: Option<f64>,
     /// Stop after this time: 30s, 5min …
     #[arg(long, value_name = "TIME", value_parser = values::duration)]
     time: Option<Duration>,
     /// Take this many samples a reading, whatever the error
-    #[arg(long, value_name = "NUMBER", value_parser = values::count, conflicts_with_all = ["rel_error", "abs_error", "time"])]
+    #[arg(long, value_name = "NUMBER", value_parser = values::count, conflicts_with_all = ["rel_error", "abs_error", "rms_error", "time"])]
     samples: Option<u64>,
 }
 
@@ -287,15 +291,17 @@ fn stopping(arguments: &Arguments, scene: &Scene) -> Result<Stopping, Failure> {
     let Stop {
         rel_error,
         abs_error,
+        rms_error,
         time,
         samples,
     } = &arguments.stop;
-    let unstated =
-        rel_error.is_none() && abs_error.is_none() && time.is_none() && samples.is_none();
+    let tolerance = rel_error.is_some() || abs_error.is_some() || rms_error.is_some();
+    let unstated = !tolerance && time.is_none() && samples.is_none();
     let absolute = |text: &String| tolerance::parse(text, scene, chosen(arguments).as_deref());
     Ok(Stopping {
         rel_error: rel_error.or(unstated.then_some(DEFAULT_REL_ERROR)),
         abs_error: abs_error.as_ref().map(absolute).transpose()?,
+        rms_error: *rms_error,
         time: *time,
         samples: *samples,
     })

@@ -39,6 +39,7 @@ fn refuse_tracing(arguments: &Arguments) -> Result<(), Failure> {
         ("--balance", arguments.balance),
         ("--rel-error", stop.rel_error.is_some()),
         ("--abs-error", stop.abs_error.is_some()),
+        ("--rms-error", stop.rms_error.is_some()),
         ("--time", stop.time.is_some()),
         ("--samples", stop.samples.is_some()),
         ("--max-depth", engine.max_depth.is_some()),

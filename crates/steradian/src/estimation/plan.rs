@@ -23,9 +23,10 @@ pub struct Plan {
     pub max_samples: u64,
 }
 
-/// When to stop. At least one of the four is given.
+/// When to stop. At least one of the five is given.
 ///
 /// - a tolerance (`rel_error`, `abs_error`, or both: the wider one holds), with `time` as a limit if given;
+/// - `rms_error` alone, a tolerance of all streams of a sensor together, with `time` as a limit if given;
 /// - `samples` alone: exactly that many a stream, rounded up to a multiple of the replicates;
 /// - `time` alone: as many as fit; the number is kept in the result, and `samples` with that number gives the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,6 +35,8 @@ pub struct Stopping {
     pub rel_error: Option<f64>,
     /// Half-width of the interval in the unit of the scalar.
     pub abs_error: Option<f64>,
+    /// Root mean square over the streams of a sensor of their intervals' half-widths, each relative to its value.
+    pub rms_error: Option<f64>,
     /// Wall-clock time.
     pub time: Option<Duration>,
     /// Samples a stream.
@@ -46,6 +49,15 @@ impl Stopping {
     pub fn at_rel_error(rel_error: f64) -> Self {
         Self {
             rel_error: Some(rel_error),
+            ..Self::default()
+        }
+    }
+
+    /// Stop when the half-widths of a sensor's intervals, relative to the values, are at most `rms_error` in the root mean square.
+    #[must_use]
+    pub fn at_rms_error(rms_error: f64) -> Self {
+        Self {
+            rms_error: Some(rms_error),
             ..Self::default()
         }
     }
@@ -69,7 +81,7 @@ impl Stopping {
     }
 
     pub(super) fn has_tolerance(&self) -> bool {
-        self.rel_error.is_some() || self.abs_error.is_some()
+        self.rel_error.is_some() || self.abs_error.is_some() || self.rms_error.is_some()
     }
 
     /// The half-width allowed for a value when the sensor's mean is `mean`.
@@ -111,17 +123,23 @@ impl Plan {
         let Stopping {
             rel_error,
             abs_error,
+            rms_error,
             time,
             samples,
         } = self.stop;
+        let of_each = rel_error.is_some() || abs_error.is_some();
         let faults = [
             (
-                rel_error.is_none() && abs_error.is_none() && time.is_none() && samples.is_none(),
+                !self.stop.has_tolerance() && time.is_none() && samples.is_none(),
                 "nothing says when to stop: give a tolerance, a time or a number of samples",
             ),
             (
-                !positive(rel_error) || !positive(abs_error),
+                ![rel_error, abs_error, rms_error].into_iter().all(positive),
                 "a tolerance must be a positive number",
+            ),
+            (
+                rms_error.is_some() && of_each,
+                "a root mean square error excludes a tolerance of each interval",
             ),
             (
                 samples == Some(0),
@@ -142,6 +160,10 @@ impl Plan {
                 "shards are counted from 1 to their number",
             ),
             (
+                self.shard.is_some() && rms_error.is_some(),
+                "shards cannot agree on a root mean square over all of them: give a tolerance or a number of samples",
+            ),
+            (
                 self.shard.is_some() && time.is_some() && !self.stop.has_tolerance(),
                 "shards of a timed run cannot agree on a number of samples: give a tolerance or a number of samples",
             ),
@@ -157,6 +179,13 @@ impl Plan {
             .iter()
             .find(|(wrong, _)| *wrong)
             .map_or(Ok(()), |(_, fault)| Err(EstimationError::Plan(fault)))
+    }
+
+    /// The same for what has no streams whose errors could be shared out.
+    pub(crate) fn check_without_rms(&self) -> Result<(), EstimationError> {
+        let message = "only the readings of sensors have a root mean square error";
+        let fault = Err(EstimationError::Plan(message));
+        self.stop.rms_error.map_or(self.check(), |_| fault)
     }
 
     /// Whether this shard computes number `cell`, of streams or of cells.
@@ -178,11 +207,13 @@ mod tests {
             plan.check()
         };
         assert_eq!(plan(|_| ()), Ok(()));
-        let wrong: [fn(&mut Plan); 9] = [
+        let wrong: [fn(&mut Plan); 11] = [
             |plan| plan.stop = Stopping::default(),
             |plan| plan.stop.rel_error = Some(-0.1),
             |plan| plan.stop.abs_error = Some(f64::NAN),
             |plan| plan.stop.samples = Some(100),
+            |plan| plan.stop.rms_error = Some(0.01),
+            |plan| (plan.stop, plan.shard) = (Stopping::at_rms_error(0.01), Some((1, 2))),
             |plan| plan.replicates = 1,
             |plan| plan.threads = 0,
             |plan| plan.confidence = 1.0,

@@ -9,8 +9,11 @@
 //!    has been lucky so far. The pilot is discarded: a result whose length depended on its own samples would be biased.
 //! 3. *Final*: n samples with fresh random numbers. A stream that misses its tolerance runs once more, afresh, with 2n.
 //!
+//! A [root mean square](rms) over a sensor's streams is reached the same way, with samples shared out among them.
+//!
 //! The floor of the tolerance is taken from the pilot, so that shards, which all run the whole pilot, agree on it. Where points are
-//! measured in blocks, floor and pooled variance are those of the sensor's streams in the block, and each block has its own pilot.
+//! measured in blocks, floor, pooled variance and root mean square are those of the sensor's streams in the block, and each block has its
+//! own pilot.
 
 use std::ops::ControlFlow;
 use std::time::Duration;
@@ -177,15 +180,18 @@ impl<'a, I: Integrand> Session<'a, I> {
         if complete {
             self.rerun(&decisions, &mut cells)?;
         }
-        Ok(self.harvest(&cells, |stream| {
-            complete && self.meets_tolerance(&decisions, &cells, stream)
-        }))
+        let met = self.met(&decisions, &cells);
+        Ok(self.harvest(&cells, |stream| complete && met[stream]))
     }
 
     fn pilot(&mut self, cells: &mut Cells) -> Result<ControlFlow<()>, EstimationError> {
         let sensors = &self.sensors;
         let size = |stream: usize| sensors.streams[sensors.of_stream[stream]];
-        let first = |stream| PILOT_OF_STREAM.max(PILOT_OF_SENSOR.div_ceil(size(stream)));
+        let least = match self.plan.stop.rms_error {
+            Some(_) => rms::PILOT_OF_STREAM,
+            None => PILOT_OF_STREAM,
+        };
+        let first = |stream| least.max(PILOT_OF_SENSOR.div_ceil(size(stream)));
         let longest = |stream| LONGEST_PILOT_OF_STREAM.max(LONGEST_PILOT_OF_SENSOR / size(stream));
         let longest: Vec<_> = (0..cells.streams())
             .map(|stream| self.length(longest(stream)))
@@ -221,14 +227,27 @@ impl<'a, I: Integrand> Session<'a, I> {
     }
 
     fn decide(&self, pilot: &Cells) -> Decisions {
+        let means = self.means(pilot);
+        let lengths = match self.plan.stop.rms_error {
+            Some(wanted) => self.shared_out(pilot, &means, wanted),
+            None => self.one_by_one(pilot, &means),
+        };
+        Decisions { means, lengths }
+    }
+
+    /// Of the streams of each sensor.
+    fn means(&self, cells: &Cells) -> Vec<f64> {
+        let mut means = self.sensors.sum(|stream| self.value(cells, stream));
+        let counts = means.iter_mut().zip(&self.sensors.streams);
+        counts.for_each(|(mean, &streams)| *mean /= streams.max(1) as f64);
+        means
+    }
+
+    /// Samples of a replicate with which each stream meets its own tolerance.
+    fn one_by_one(&self, pilot: &Cells, means: &[f64]) -> Vec<u64> {
         let summaries: Vec<_> = (0..pilot.streams())
             .map(|stream| pilot.summary(stream))
             .collect();
-        let mut means = self.sensors.sum(|stream| self.value(pilot, stream));
-        means
-            .iter_mut()
-            .zip(&self.sensors.streams)
-            .for_each(|(mean, &streams)| *mean /= streams.max(1) as f64);
         let variances = self
             .sensors
             .sum(|stream| summaries[stream].samples as f64 * summaries[stream].variance);
@@ -256,15 +275,14 @@ impl<'a, I: Integrand> Session<'a, I> {
             };
             self.length((samples * growth) as u64)
         };
-        let lengths = (0..pilot.streams()).map(length).collect();
-        Decisions { means, lengths }
+        (0..pilot.streams()).map(length).collect()
     }
 
     /// Replaces the streams that missed by ones with twice the samples, if there is time for them.
     fn rerun(&mut self, decisions: &Decisions, cells: &mut Cells) -> Result<(), EstimationError> {
         let plan = self.plan;
-        let missed =
-            |stream: usize| plan.owns(stream) && !self.meets_tolerance(decisions, cells, stream);
+        let met = self.met(decisions, cells);
+        let missed = |stream: usize| plan.owns(stream) && !met[stream];
         let missed: Vec<bool> = (0..cells.streams()).map(missed).collect();
         let length =
             |stream: usize| self.length(2 * decisions.lengths[stream] * u64::from(plan.replicates));
@@ -286,10 +304,18 @@ impl<'a, I: Integrand> Session<'a, I> {
         cells.summary(stream).mean + self.integrand.offset(stream)
     }
 
-    fn meets_tolerance(&self, decisions: &Decisions, cells: &Cells, stream: usize) -> bool {
-        let mean = decisions.means[self.sensors.of_stream[stream]];
-        let tolerance = self.plan.stop.tolerance(self.value(cells, stream), mean);
-        self.factor * cells.summary(stream).variance.sqrt() <= tolerance
+    /// Which streams meet the tolerance, or are of a sensor that meets it.
+    fn met(&self, decisions: &Decisions, cells: &Cells) -> Vec<bool> {
+        let means = &decisions.means;
+        if let Some(wanted) = self.plan.stop.rms_error {
+            return self.met_together(cells, means, wanted);
+        }
+        let meets = |stream: usize| {
+            let mean = means[self.sensors.of_stream[stream]];
+            let tolerance = self.plan.stop.tolerance(self.value(cells, stream), mean);
+            self.factor * cells.summary(stream).variance.sqrt() <= tolerance
+        };
+        (0..cells.streams()).map(meets).collect()
     }
 
     /// Tasks over the `(from, to)` samples of every owned cell.
@@ -353,5 +379,6 @@ fn whole_runs(count: u64) -> u64 {
     }
 }
 
+mod rms;
 #[cfg(test)]
 mod tests;

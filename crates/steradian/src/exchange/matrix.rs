@@ -163,7 +163,7 @@ pub fn matrix(
 }
 
 pub(super) fn check_plan(plan: &Plan) -> Result<(), ExchangeError> {
-    plan.check()?;
+    plan.check_without_rms()?;
     if plan.shard.is_some() || plan.stop.time.is_some() || plan.stop.abs_error.is_some() {
         let message = "a matrix takes a relative tolerance or a number of samples, and is not cut into shards";
         return Err(ExchangeError::Plan(message));

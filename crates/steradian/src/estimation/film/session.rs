@@ -32,7 +32,7 @@ pub fn expose<S: PixelSampler>(
     plan: &Plan,
     observer: &mut dyn Observer,
 ) -> Result<Exposure, EstimationError> {
-    plan.check()?;
+    plan.check_without_rms()?;
     if plan.shard.is_some() && plan.stop.samples.is_none() {
         return Err(EstimationError::Plan(
             "shards of an image need a number of samples",

@@ -100,7 +100,11 @@ fn a_number_of_samples_is_rounded_up_to_the_replicates() {
 
 #[test]
 fn bits_do_not_depend_on_threads() {
-    for stop in [Stopping::at_samples(20_000), Stopping::at_rel_error(0.002)] {
+    for stop in [
+        Stopping::at_samples(20_000),
+        Stopping::at_rel_error(0.002),
+        Stopping::at_rms_error(0.002),
+    ] {
         let one = run(&with(stop, 1));
         assert_eq!(one, run(&with(stop, 2)));
         assert_eq!(one, run(&with(stop, 7)));
@@ -335,4 +339,79 @@ fn an_observer_sees_progress_and_can_end_it() {
     let last = seen[1];
     assert!(last.samples > seen[0].samples && last.planned == 5 << 36);
     assert!(last.remaining.unwrap() > Duration::from_secs(1) && last.relative_error.unwrap() < 0.1);
+}
+
+/// 64 streams of mean 1, one in eight of which is bright in every 25th sample only (r = 4.9), the others in half of them (r = 1).
+struct Corners;
+
+impl Corners {
+    fn brightness(stream: u32) -> f64 {
+        if stream.is_multiple_of(8) { 25.0 } else { 2.0 }
+    }
+}
+
+impl Integrand for Corners {
+    type Workspace = ();
+
+    fn streams(&self) -> usize {
+        64
+    }
+
+    fn columns(&self) -> usize {
+        1
+    }
+
+    fn sensor_of(&self, _: usize) -> usize {
+        0
+    }
+
+    fn stream_key(&self, stream: usize) -> u64 {
+        combine(key_of_name("corners"), stream as u64)
+    }
+
+    fn weights(&self, _: usize) -> &[f64] {
+        &[1.0]
+    }
+
+    fn new_workspace(&self) {}
+
+    fn sample(&self, batch: &SampleBatch<'_>, _: &mut (), tally: &mut Tally) {
+        for (number, run) in batch.runs.iter().enumerate() {
+            let brightness = Self::brightness(run.stream);
+            for index in run.first..run.first + run.count {
+                let hashed = mix_64(run.key ^ mix_64(u64::from(index)));
+                let u = (hashed >> 11) as f64 * 0.5_f64.powi(53);
+                let value = if u * brightness < 1.0 {
+                    brightness
+                } else {
+                    0.0
+                };
+                tally.sample(number, &[value], &[1.0]);
+            }
+        }
+    }
+}
+
+/// r̄ = 1.49 and mean(r²) = 3.88: streams that share samples out need 1.75 times fewer than as many for each would be.
+#[test]
+fn a_root_mean_square_is_reached_with_samples_shared_out() {
+    let wanted = 0.02;
+    let plan = with(Stopping::at_rms_error(wanted), 1);
+    let streams = estimate(&Corners, &plan, &mut Silent).unwrap();
+    let estimates: Vec<_> = streams.iter().map(|s| s.combine(&[1.0])).collect();
+    let factor = half_width_factor(&plan);
+    let mean = |of: &dyn Fn(&crate::estimation::Estimate) -> f64| {
+        estimates.iter().map(of).sum::<f64>() / estimates.len() as f64
+    };
+    let stated = mean(&|e| (factor * e.std_error / e.value).powi(2)).sqrt();
+    assert!(
+        stated <= wanted && estimates.iter().all(|e| e.converged),
+        "{stated}"
+    );
+    let drawn: u64 = streams.iter().flat_map(Replicates::samples).sum();
+    let evenly = mean(&|_| 3.88 * (factor / wanted).powi(2)) * 64.0;
+    assert!((drawn as f64) < 0.75 * evenly, "{drawn} of {evenly}");
+    // Squares of Student's t with 15 degrees of freedom: mean 1.15, standard deviation 1.9, of 64 of them .24; beyond 4 of these once in 10⁴.
+    let scores = mean(&|e| ((e.value - 1.0) / e.std_error).powi(2));
+    assert!((0.3..2.1).contains(&scores), "{scores}");
 }
