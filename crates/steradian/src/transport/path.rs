@@ -309,9 +309,14 @@ impl Tracer<'_> {
         let from = Vec3::from_array(ray.origin) - direction * flights.travelled[i];
         let way = (from, direction);
         let tables = self.tables;
-        let density = tables.density_of_everywhere(everywhere, way, candidates, || *at);
-        let ratio = density / flights.pdf[i];
-        1.0 / (1.0 + ratio * ratio)
+        // A direction along the surface has no density either.
+        match tables.density_of_everywhere(everywhere, way, candidates, || *at) {
+            0.0 => 1.0,
+            density => {
+                let ratio = density / flights.pdf[i];
+                1.0 / (1.0 + ratio * ratio)
+            }
+        }
     }
 
     /// Power-heuristic weight of emission that a sampled direction met.
