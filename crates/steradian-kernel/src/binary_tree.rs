@@ -21,7 +21,7 @@ impl BinaryTree {
     /// There must be at least one box.
     pub(crate) fn build(boxes: &[impl Boundable]) -> Self {
         let quality = BvhBuildParams::medium_build();
-        let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
+        let mut tree = PlocBuilder::new().build(
             quality.ploc_search_distance,
             boxes,
             (0..boxes.len() as u32).collect(),
