@@ -12,7 +12,7 @@ use glam::Vec3;
 
 use super::columns::Place;
 use super::shaft::View;
-use super::tables::{Emitter, Facet, Outline, Tables};
+use super::tables::{Emitter, EmitterShape, Facet, Outline, Tables};
 use super::towards::{clearance, cone, on_sphere};
 use crate::geometry::{Direction, Frame, Point, Vector};
 use crate::sampling::projected_cap::ProjectedCap;
@@ -26,6 +26,8 @@ pub(super) struct Aim {
     frame: Frame,
     targets: Vec<Target>,
     total: f64,
+    /// Rays go through the points of the emitter, and do not end before them.
+    is_portal: bool,
 }
 
 /// A sampler, with the sum of the weights up to and including it.
@@ -79,6 +81,7 @@ impl Aim {
             frame,
             targets: vec![],
             total: 0.0,
+            is_portal: matches!(emitter.shape, EmitterShape::Portal(_)),
         };
         let receiver = tables.scene.surfaces().origin() + Vector::from(place.point.map(f64::from));
         match &emitter.outline {
@@ -193,13 +196,15 @@ impl Aim {
         let numbers = [rest, f64::from(v)];
         let vertex = Vec3::from_array(place.point);
         match &target.sampler {
-            Sampler::Projected(polygon, plane) => plane.end(
-                place,
-                self.frame.to_world(polygon.sample(numbers)).to_vector(),
-            ),
-            Sampler::Rectangle(rectangle, plane) => plane.end(place, rectangle.sample(numbers)),
+            Sampler::Projected(polygon, plane) => {
+                let direction = self.frame.to_world(polygon.sample(numbers));
+                self.end(place, plane, direction.to_vector())
+            }
+            Sampler::Rectangle(rectangle, plane) => {
+                self.end(place, plane, rectangle.sample(numbers))
+            }
             Sampler::Triangle(triangle, plane) => {
-                plane.end(place, triangle.sample(numbers).to_vector())
+                self.end(place, plane, triangle.sample(numbers).to_vector())
             }
             Sampler::Cap(cap, ball) => {
                 let direction = self.frame.to_world(cap.sample(numbers));
@@ -218,13 +223,26 @@ impl Aim {
             }
         }
     }
+
+    /// Where a direction meets a plane, at lamps moved off it towards the receiver.
+    fn end(&self, place: &Place, plane: &Plane, direction: Vector) -> Option<Vec3> {
+        let span = plane.span(direction)?;
+        Some(match self.is_portal {
+            true => Vec3::from_array(place.point) + single(span),
+            false => plane.end(place, span),
+        })
+    }
 }
 
 impl Plane {
-    /// Where a direction meets it, moved off it towards the receiver.
-    fn end(&self, place: &Place, direction: Vector) -> Option<Vec3> {
+    /// To where a direction meets it.
+    fn span(&self, direction: Vector) -> Option<Vector> {
         let way = self.distance / direction.dot(self.normal);
-        let span = direction * way;
+        (way > 0.0 && way.is_finite()).then(|| direction * way)
+    }
+
+    /// A point on it, moved off it towards the receiver.
+    fn end(&self, place: &Place, span: Vector) -> Vec3 {
         let point = Vec3::from_array(place.point) + single(span);
         let facing = if self.distance < 0.0 {
             self.normal
@@ -232,7 +250,7 @@ impl Plane {
             -self.normal
         };
         let off = clearance(point.into(), (self.size + span.length()) as f32);
-        (way > 0.0 && way.is_finite()).then(|| point + single(facing) * off)
+        point + single(facing) * off
     }
 }
 

@@ -1,5 +1,6 @@
 //! Columns of a batch of paths: structures of arrays, so that loops run over paths.
 
+use glam::Vec3;
 use steradian_kernel::{HitBatch, RayBatch};
 
 use super::branching::Stem;
@@ -307,6 +308,15 @@ impl Place {
     #[inline(always)]
     pub fn cleared(&self) -> [f32; 3] {
         std::array::from_fn(|axis| self.point[axis] + self.normal[axis] * self.clearance)
+    }
+
+    /// Where rays in a direction start: off this side or the other.
+    #[inline(always)]
+    pub fn start(&self, direction: Vec3) -> Vec3 {
+        match direction.dot(Vec3::from_array(self.normal)) < 0.0 {
+            true => self.beyond().into(),
+            false => self.cleared().into(),
+        }
     }
 
     /// The point moved off the other side.

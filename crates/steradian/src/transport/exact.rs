@@ -5,7 +5,7 @@ use steradian_kernel::{InstructionSet, RayBatch};
 
 use super::channels::counts;
 use super::shaft::View;
-use super::tables::Tables;
+use super::tables::{Emitter, EmitterShape, Tables};
 use super::transmittance::Transmittance;
 use crate::geometry::{Direction, Point};
 use crate::light::{Kind, Light, LightSample, LuminaireLight, Outlet};
@@ -143,8 +143,11 @@ pub(super) fn extended(tables: &Tables<'_>, view: &View, columns: &mut [f64]) ->
     let scene = tables.scene;
     let count = scene.lanes().count();
     let mut known = 0;
-    let extended = tables.emitters[..tables.extended].iter();
-    for (number, emitter) in extended.enumerate().take(MOST_KNOWN) {
+    let extended = tables.emitters[..tables.extended].iter().enumerate();
+    // What hides light from everywhere may stand beyond its portal.
+    let lamps =
+        |(_, emitter): &(usize, &Emitter)| !matches!(emitter.shape, EmitterShape::Portal(_));
+    for (number, emitter) in extended.take(MOST_KNOWN).filter(lamps) {
         let Some(share) = view.of(tables, emitter) else {
             continue;
         };

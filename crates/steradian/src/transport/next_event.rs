@@ -182,9 +182,14 @@ impl NextEvent<'_> {
             return;
         };
         let Sampled { number, rate, .. } = sampled;
-        let point = Vec3::from_array(place.point);
+        let from = place.start(towards.direction);
+        if self.candidates.receiver != Receiver::Surface
+            && tables.other_portals(number, from, towards.direction) > 0
+        {
+            return;
+        }
         let at = || self.receiving(&place);
-        let towards = tables.shared((number, rate), (point, towards), self.candidates, at);
+        let towards = tables.shared((number, rate), (from, towards), self.candidates, at);
         let cos_theta = towards.direction.dot(Vec3::from_array(place.normal));
         let (foreshortening, own_density) = if self.is_spherical() {
             (1.0, 0.25 * FRAC_1_PI)
@@ -398,11 +403,22 @@ impl<'a> Aimed<'a> {
         let Some(end) = aim.sample(place, u) else {
             return;
         };
-        shadows.gain[i] = aim.weight() as f32 / self.sampled.rate;
-        shadows.emitter[i] = self.sampled.number as u32;
-        shadows.numbers[i] = u;
         let start = Vec3::from_array(self.pass.start(place));
-        shadows.rays.set(i, start.into(), (end - start).into(), 1.0);
+        let (tables, number) = (self.pass.tracer.tables, self.sampled.number);
+        let (others, reach) = match tables.emitters[number].shape {
+            EmitterShape::Portal(_) => {
+                let others = tables.other_portals(number, start, end - start);
+                (others, f32::INFINITY)
+            }
+            _ => (0, 1.0),
+        };
+        let rate = self.sampled.rate * (1 + others) as f32;
+        shadows.gain[i] = aim.weight() as f32 / rate;
+        shadows.emitter[i] = number as u32;
+        shadows.numbers[i] = u;
+        shadows
+            .rays
+            .set(i, start.into(), (end - start).into(), reach);
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) struct Panel {
     pub normal: [f32; 3],
     pub area: f32,
     pub two_sided: bool,
-    /// Light comes through it from beyond.
+    /// Light comes through it from beyond: rays go through its points, from where they start.
     pub is_portal: bool,
 }
 
@@ -61,15 +61,18 @@ impl Work for SamplePanel<'_> {
         };
         for i in 0..n {
             let normal = [nx[i], ny[i], nz[i]];
-            let (end, weight) = self
-                .panel
-                .sample([px[i], py[i], pz[i]], normal, [u[i], v[i]]);
-            let valid = if weight > 0.0 { 1.0 } else { 0.0 };
-            (ox[i], oy[i], oz[i]) = (
+            let start = [
                 px[i] + nx[i] * clearance[i],
                 py[i] + ny[i] * clearance[i],
                 pz[i] + nz[i] * clearance[i],
-            );
+            ];
+            let from = match self.panel.is_portal {
+                true => start,
+                false => [px[i], py[i], pz[i]],
+            };
+            let (end, weight) = self.panel.sample(from, normal, [u[i], v[i]]);
+            let valid = if weight > 0.0 { 1.0 } else { 0.0 };
+            (ox[i], oy[i], oz[i]) = start.into();
             (dx[i], dy[i], dz[i]) = (
                 (end[0] - ox[i]) * valid,
                 (end[1] - oy[i]) * valid,
@@ -135,7 +138,10 @@ impl Panel {
         let weight = cos_theta / (density * (1.0 + ratio * ratio));
         let usable = seen > 0.0 && cos_theta > 0.0 && density > 0.0 && density < f32::INFINITY;
         let size = self.area.sqrt() + squared * inverse;
-        let off = clearance(point, size).copysign(cos_light);
+        let off = match self.is_portal {
+            true => 0.0,
+            false => clearance(point, size).copysign(cos_light),
+        };
         let end = std::array::from_fn(|k| point[k] + self.normal[k] * off);
         (end, if usable { weight } else { 0.0 })
     }

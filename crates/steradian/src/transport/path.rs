@@ -309,6 +309,10 @@ impl Tracer<'_> {
         let from = Vec3::from_array(ray.origin) - direction * flights.travelled[i];
         let way = (from, direction);
         let tables = self.tables;
+        let is_meter = candidates.receiver != Receiver::Surface;
+        if is_meter && everywhere.portals_on(tables, way).next().is_some() {
+            return 0.0;
+        }
         // A direction along the surface has no density either.
         match tables.density_of_everywhere(everywhere, way, candidates, || *at) {
             0.0 => 1.0,

@@ -160,7 +160,7 @@ impl<'a> Surface<'a> {
         let Some(towards) = sampled.towards(tables, place, [u, v]) else {
             return;
         };
-        let way = (Vec3::from_array(place.point), towards);
+        let way = (place.start(towards.direction), towards);
         let number = (sampled.number, sampled.rate);
         let towards = tables.shared(number, way, candidates, || self.receiving());
         let Some((value, own_density, beyond)) = self.towards(towards.direction) else {

@@ -137,7 +137,7 @@ fn evenly_towards(
                 ..towards
             })
         }
-        EmitterShape::Portal(portal) => portal.towards(vertex, u),
+        EmitterShape::Portal(portal) => portal.towards(place, u),
         EmitterShape::Directional { towards } => {
             let direction = Vec3::from_array(*towards);
             Some(Towards {

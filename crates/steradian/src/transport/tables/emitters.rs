@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::outlines::outline;
+use super::outlines::{Outline, outline};
 use super::{Emitter, EmitterShape, NO_EMITTER, Tinted};
 use crate::geometry::{Frame, Point};
 use crate::light::{EnvironmentMap, Kind, Light, Outlet};
@@ -21,10 +21,13 @@ pub(super) fn emitters(scene: &Scene, powers: &[Tinted]) -> (Vec<Emitter>, Vec<u
     let mut emitter_of_light = vec![NO_EMITTER; lights.len()];
     let portals = portals(scene);
     for index in extent.into_iter().chain(delta) {
-        let shapes = emitter_shape(scene, &lights[index]).into_iter();
-        let portals = portals.iter().map(|portal| EmitterShape::Portal(*portal));
+        let shape = emitter_shape(scene, &lights[index]);
+        let shapes = shape.map(|shape| (shape, outline_of(scene, &lights[index])));
+        let portals = portals.iter().cloned();
+        let portals =
+            portals.map(|(portal, outline)| (EmitterShape::Portal(portal), Some(outline)));
         let portals = portals.filter(|_| comes_from_everywhere(&lights[index]));
-        for shape in shapes.chain(portals) {
+        for shape in shapes.into_iter().chain(portals) {
             emitter_of_light[index] = emitters.len() as u32;
             emitters.push(emitter(scene, index, powers[index], shape));
         }
@@ -51,15 +54,23 @@ fn comes_from_everywhere(light: &Light) -> bool {
     )
 }
 
-fn emitter(scene: &Scene, number: usize, power: Tinted, shape: EmitterShape) -> Emitter {
-    let light = &scene.lights()[number];
-    let area = match &light.kind {
-        Kind::Area(area) => Some(area),
+fn outline_of(scene: &Scene, light: &Light) -> Option<Outline> {
+    match &light.kind {
+        Kind::Area(area) => outline(scene, area),
         _ => None,
-    };
+    }
+}
+
+fn emitter(
+    scene: &Scene,
+    number: usize,
+    power: Tinted,
+    (shape, outline): (EmitterShape, Option<Outline>),
+) -> Emitter {
+    let light = &scene.lights()[number];
     Emitter {
         shape,
-        outline: area.and_then(|area| outline(scene, area)),
+        outline,
         light: number,
         power,
         surface: light.surface().map(|(shape, _)| shape),
