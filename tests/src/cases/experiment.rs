@@ -141,6 +141,12 @@ impl Experiment {
         self
     }
 
+    /// The same in all numbers so far.
+    pub fn with_bias_of_all(mut self, bias: f64) -> Self {
+        self.probes.iter_mut().for_each(|probe| probe.bias = bias);
+        self
+    }
+
     fn last(&mut self) -> &mut Probe {
         self.probes.last_mut().expect("a number was read before")
     }
