@@ -24,7 +24,7 @@ use glam::Vec3;
 use super::columns::Place;
 use super::light_tree::Receiving;
 use super::tables::{Candidates, EmitterShape, Everywhere, Facet, Outline, Tables};
-use super::towards::Towards;
+use super::towards::{Towards, by_area};
 use crate::geometry::{Direction, Vector};
 use crate::scene::Scene;
 use crate::shape::Parallelogram;
@@ -76,16 +76,12 @@ impl Portal {
     pub fn towards(&self, place: &Place, u: [f32; 2]) -> Option<Towards> {
         let [a, b] = self.edges;
         let point = self.origin + a * u[0] + b * u[1];
-        let span = point - place.start(point - Vec3::from_array(place.point));
-        let squared = span.length_squared();
-        let direction = span / squared.sqrt();
-        let density = squared / (self.area * -direction.dot(self.normal));
-        (density > 0.0 && density.is_finite()).then_some(Towards {
-            direction,
-            end: direction,
+        let start = place.start(point - Vec3::from_array(place.point));
+        let towards = by_area(start, point, self.normal, self.area, false)?;
+        Some(Towards {
+            end: towards.direction,
             infinite: true,
-            per_power: 1.0 / density,
-            density,
+            ..towards
         })
     }
 }

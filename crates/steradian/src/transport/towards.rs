@@ -165,7 +165,14 @@ fn towards_point(vertex: Vec3, position: Vec3, falloff: impl Fn(Vec3) -> f32) ->
     })
 }
 
-fn by_area(vertex: Vec3, point: Vec3, normal: Vec3, area: f32, two_sided: bool) -> Option<Towards> {
+/// A direction to a point of an emitter that is drawn by area.
+pub(super) fn by_area(
+    vertex: Vec3,
+    point: Vec3,
+    normal: Vec3,
+    area: f32,
+    two_sided: bool,
+) -> Option<Towards> {
     let span = point - vertex;
     let squared = span.length_squared();
     let distance = squared.sqrt();

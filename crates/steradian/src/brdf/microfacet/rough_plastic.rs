@@ -171,8 +171,7 @@ impl RoughPlastic {
     /// Of the coat's first lobe.
     pub(in crate::brdf) fn gloss(&self, wo: Direction) -> Option<Gloss> {
         let parts = self.parts(wo);
-        let mean = 0.25 * self.base.iter().sum::<f64>();
-        let all = parts.first + parts.later + mean * parts.through * self.average;
+        let all = parts.first + parts.later + self.below(&parts);
         (all > 0.0).then(|| Gloss::of_facets(self.facets, parts.first / all))
     }
 
@@ -191,15 +190,16 @@ impl RoughPlastic {
         }
     }
 
+    /// What the base reflects, in the mean over the lanes.
+    fn below(&self, parts: &Parts) -> f64 {
+        let mean = 0.25 * self.base.iter().sum::<f64>();
+        mean * parts.through * self.average
+    }
+
     /// Of the coat's first and second lobe and of the base.
     fn probabilities(&self, wo: Direction) -> [f64; 3] {
         let parts = self.parts(wo);
-        let mean = 0.25 * self.base.iter().sum::<f64>();
-        let shares = [
-            parts.first.sqrt(),
-            parts.later,
-            mean * parts.through * self.average,
-        ];
+        let shares = [parts.first.sqrt(), parts.later, self.below(&parts)];
         let sum: f64 = shares.iter().sum();
         shares.map(|share| if sum > 0.0 { share / sum } else { 0.0 })
     }
