@@ -3,8 +3,8 @@
 use crate::batch::{Hit, HitBatch, MISS, Ray, RayBatch};
 use crate::geometry::{BuildError, Geometry, Quadric};
 use crate::instruction_set::{InstructionSet, Kernel};
-use crate::node::{Bounds, Leaf, Node, WIDTH};
-use crate::packet::Packet;
+use crate::node::{Bounds, WIDTH};
+use crate::packet::{Packet, Patience};
 use crate::prepared_ray::PreparedRay;
 use crate::region;
 use crate::simd::Simd;
@@ -137,7 +137,7 @@ impl Accelerator {
 
     /// Memory of the tree.
     pub fn memory_bytes(&self) -> usize {
-        self.tree.nodes.len() * size_of::<Node>() + self.tree.leaves.len() * size_of::<Leaf>()
+        self.tree.memory_bytes()
     }
 
     pub(crate) fn tree(&self) -> &WideTree {
@@ -209,12 +209,17 @@ impl Accelerator {
     fn occlusion_of_many<S: Simd>(&self, set: S, rays: &RayBatch, occluded: &mut [bool]) {
         let mut stack = traversal::stack_for(&self.tree);
         let mut starts = Vec::new();
+        let mut patience = Patience::default();
         for start in (0..rays.len()).step_by(Packet::<S>::RAYS) {
-            if let Some(mut packet) = Packet::of_shadow_rays(set, rays, start, &self.bounds) {
+            let (bounds, widest) = (&self.bounds, patience.widest());
+            if let Some(mut packet) = Packet::of_shadow_rays(set, rays, start, bounds, widest) {
                 packet.try_quadrics(self.target());
-                packet.trace(self.target(), &mut stack);
-                packet.write_any(occluded);
-                continue;
+                let got_through = packet.trace(self.target(), &mut stack);
+                patience.learn(got_through);
+                if got_through {
+                    packet.write_any(occluded);
+                    continue;
+                }
             }
             starts.push(start as u32);
         }

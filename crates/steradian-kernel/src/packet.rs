@@ -9,7 +9,8 @@
 //! monotone, so that it never leaves out what one of its rays would meet. The test of a ray and a triangle has the operations of
 //! the single ray's, and the closest hit is the smallest `(t, primitive)` in any order: hits are the same bits.
 //!
-//! Of shadow rays a packet is narrower, because rays that go by turns are nearly as fast there, and a ray is done with its first hit.
+//! Shadow rays that point less alike, as those to a large lamp, make a packet, too, but one that is given up if it does not get through
+//! in few steps: where much stands in the way, rays are faster by turns.
 //!
 //! Sources: I. Wald, P. Slusallek, C. Benthin, M. Wagner, "Interactive Rendering with Coherent Ray Tracing", Computer Graphics
 //! Forum 20(3), 2001, for packets; S. Boulos, I. Wald, P. Shirley, "Geometric and Arithmetic Culling Methods for Entire Ray
@@ -18,6 +19,7 @@
 mod beam;
 mod best;
 mod bundle;
+mod patience;
 
 use crate::batch::{HitBatch, MISS, RayBatch};
 use crate::node::{Below, Bounds, Child, Leaf, WIDTH};
@@ -28,12 +30,13 @@ use crate::triangle::{Edges, splat};
 use beam::Beam;
 use best::Best;
 use bundle::Bundle;
+pub(crate) use patience::Patience;
 
 /// The most by which slopes in a packet differ: rays further apart go alone.
 const WIDEST: f32 = 1.0 / 8.0;
 
-/// The same for shadow rays.
-const WIDEST_OF_SHADOW_RAYS: f32 = 1.0 / 16.0;
+/// What a packet of shadow rays may take: nodes, leaves and triangles. As many rays by turns take two to ten times that.
+const MOST_STEPS_OF_SHADOW_RAYS: usize = 64;
 
 /// Neighbouring rays with what they share.
 pub(crate) struct Packet<'a, S: Simd> {
@@ -80,15 +83,16 @@ impl<'a, S: Simd> Packet<'a, S> {
         })
     }
 
-    /// Of shadow rays: any hit before the end of a ray will do, and a ray that has one is done.
+    /// Of shadow rays, whose slopes may differ by `widest`: any hit before the end of a ray will do, and a ray that has one is done.
     #[inline(always)]
     pub(crate) fn of_shadow_rays(
         set: S,
         rays: &'a RayBatch,
         start: usize,
         bounds: &Bounds,
+        widest: f32,
     ) -> Option<Self> {
-        let mut packet = Self::no_wider_than(WIDEST_OF_SHADOW_RAYS, set, rays, start, bounds)?;
+        let mut packet = Self::no_wider_than(widest, set, rays, start, bounds)?;
         packet.any = true;
         for lane in 0..Self::RAYS {
             packet.best.t[lane] = rays.t_max[start + lane].next_down();
@@ -115,11 +119,17 @@ impl<'a, S: Simd> Packet<'a, S> {
         self.look_for_furthest();
     }
 
-    /// Improves the hits by everything in the tree, which is not empty.
+    /// Improves the hits by everything in the tree, which is not empty. False if shadow rays would take too many steps: their answers
+    /// are not known then.
     #[inline(always)]
-    pub(crate) fn trace(&mut self, target: Target<'_>, stack: &mut [u64]) {
+    pub(crate) fn trace(&mut self, target: Target<'_>, stack: &mut [u64]) -> bool {
         let (mut current, mut top) = (Child::node(0), 0);
+        let mut steps = 0;
         loop {
+            steps += 1;
+            if self.any && steps > MOST_STEPS_OF_SHADOW_RAYS {
+                return false;
+            }
             match current.below() {
                 Below::Node(index) => {
                     let node = &target.tree.nodes[index];
@@ -133,11 +143,11 @@ impl<'a, S: Simd> Packet<'a, S> {
                         continue;
                     }
                 }
-                Below::Leaf(index) => self.try_leaf(&target.tree.leaves[index]),
+                Below::Leaf(index) => steps += self.try_leaf(&target.tree.leaves[index]),
                 Below::Quadric(index) => self.try_quadric(target, index),
             }
             let Some(next) = pop(stack, &mut top, self.best.furthest) else {
-                return;
+                return true;
             };
             current = next;
         }
@@ -165,9 +175,11 @@ impl<'a, S: Simd> Packet<'a, S> {
         }
     }
 
+    /// How many triangles had to be tried.
     #[inline(always)]
-    fn try_leaf(&mut self, leaf: &Leaf) {
+    fn try_leaf(&mut self, leaf: &Leaf) -> usize {
         let mut triangles = self.beam.may_meet(self.set, leaf).bits();
+        let count = triangles.count_ones() as usize;
         let mut is_better = false;
         while triangles != 0 {
             let triangle = triangles.trailing_zeros() as usize % WIDTH;
@@ -177,6 +189,7 @@ impl<'a, S: Simd> Packet<'a, S> {
         if is_better {
             self.look_for_furthest();
         }
+        count
     }
 
     /// Whether any hit may be better now.

@@ -72,7 +72,8 @@ pub(crate) fn permute(vector: [f32; 3], [x, y, z]: [usize; 3]) -> [f32; 3] {
 /// The axes in the order of the shear.
 #[inline(always)]
 pub(crate) fn axes_of(main: usize) -> [usize; 3] {
-    [[1, 2, 0], [2, 0, 1], [0, 1, 2]][main]
+    static AXES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+    AXES[main]
 }
 
 /// The axis of the largest component, the first of equal ones.

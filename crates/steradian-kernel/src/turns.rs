@@ -24,6 +24,9 @@ use std::hint::select_unpredictable;
 /// Rays under way at once.
 const SLOTS: usize = 32;
 
+/// A tree of no more bytes stays near the processor; to ask for its nodes beforehand costs more than it saves.
+const SMALL: usize = 1 << 20;
+
 /// What is asked of every ray.
 pub(crate) trait Question {
     /// Whether any hit will do.
@@ -108,6 +111,7 @@ struct Waiting<'a> {
 pub(crate) struct Turns<'a, S, Q> {
     set: S,
     target: Target<'a>,
+    is_large: bool,
     waiting: Waiting<'a>,
     question: Q,
     travellers: [Traveller; SLOTS],
@@ -133,6 +137,7 @@ impl<'a, S: Simd, Q: Question> Turns<'a, S, Q> {
         let mut turns = Self {
             set,
             target,
+            is_large: target.tree.memory_bytes() > SMALL,
             waiting: Waiting {
                 rays,
                 starts: starts.iter(),
@@ -163,20 +168,21 @@ impl<'a, S: Simd, Q: Question> Turns<'a, S, Q> {
         while self.nodes.len + self.leaves.len > 0 {
             for place in 0..self.nodes.take() {
                 let slot = self.nodes.slot(place);
-                self.step_down(slot);
-                self.go_on(slot);
+                let next = self.step_down(slot);
+                self.go_on(slot, next);
             }
             for place in 0..self.leaves.take() {
                 let slot = self.leaves.slot(place);
                 self.visit_leaf(slot);
-                self.go_on(slot);
+                let next = self.stacks[self.travellers[slot % SLOTS].top - 1];
+                self.go_on(slot, next);
             }
         }
     }
 
-    /// Takes the next child off the stack; where it is empty, another ray takes the place.
+    /// Takes the next child, the topmost key, off the stack; where it is empty, another ray takes the place.
     #[inline(always)]
-    fn go_on(&mut self, slot: usize) {
+    fn go_on(&mut self, slot: usize, topmost: u64) {
         let traveller = &mut self.travellers[slot % SLOTS];
         let bottom = slot * self.room + SORTED;
         if traveller.top == bottom {
@@ -186,9 +192,11 @@ impl<'a, S: Simd, Q: Question> Turns<'a, S, Q> {
             return;
         }
         traveller.top -= 1;
-        let child = Child(self.stacks[traveller.top] as u32);
+        let child = Child(topmost as u32);
         traveller.current = child;
-        prefetch(self.set, self.target, child);
+        if self.is_large {
+            prefetch(self.set, self.target, child);
+        }
         self.nodes.add_if(slot, child.is_node());
         self.leaves.add_if(slot, !child.is_node());
     }
@@ -254,17 +262,20 @@ impl<'a, S: Simd, Q: Question> Turns<'a, S, Q> {
         closest
     }
 
+    /// Gives back the key that is then the topmost.
     #[inline(always)]
-    fn step_down(&mut self, slot: usize) {
+    fn step_down(&mut self, slot: usize) -> u64 {
         let traveller = &mut self.travellers[slot % SLOTS];
         let node = &self.target.tree.nodes[traveller.current.index()];
         let slabs = traveller.slabs.splat::<S::Eight>(self.set);
         let last = S::Eight::splat(self.set, traveller.closest.0.t);
         let (entry, met) = slabs.test(self.set, node, last);
         let Some(top) = self.stacks[traveller.top - SORTED..].first_chunk_mut() else {
-            return;
+            return u64::MAX;
         };
-        traveller.top += stack::push::<S>(self.set, met, entry, &node.children, Q::ANY, top);
+        let (count, topmost) = stack::push::<S>(self.set, met, entry, &node.children, Q::ANY, top);
+        traveller.top += count;
+        topmost
     }
 
     #[inline(always)]

@@ -105,6 +105,10 @@ impl WideTree {
         })
     }
 
+    pub(crate) fn memory_bytes(&self) -> usize {
+        self.nodes.len() * size_of::<Node>() + self.leaves.len() * size_of::<Leaf>()
+    }
+
     /// Makes room for so many times what there is, and some more: a vector that grows holds everything twice.
     fn make_room(&mut self, factor: f64) {
         let more = |len: usize| (len as f64 * (factor * ROOM_MARGIN - 1.0)) as usize;

@@ -5,13 +5,15 @@
 //! is taken next. After a hit all that begins behind it is dropped.
 
 use crate::node::{Child, WIDTH};
-use crate::simd::{Floats, Simd};
+use crate::simd::{Floats, Mask, Simd};
 use crate::traversal::pack;
+use std::hint::select_unpredictable;
 
 /// Keys that the network sorts. A stack begins with as many that are greater than all others.
 pub(super) const SORTED: usize = 4;
 
-/// Puts the children of the mask on the stack, whose topmost keys lie below the place for new ones. How many there were.
+/// Puts the children of the mask on the stack, whose topmost keys lie below the place for new ones. How many there were, and which
+/// key is then the topmost: read back from where vectors have just been stored, it would have to be waited for.
 #[inline(always)]
 pub(super) fn push<S: Simd>(
     set: S,
@@ -20,31 +22,34 @@ pub(super) fn push<S: Simd>(
     children: &[Child; WIDTH],
     any: bool,
     top: &mut [u64; SORTED + WIDTH],
-) -> usize {
+) -> (usize, u64) {
+    let before = top[SORTED - 1];
     let Some(free) = top.last_chunk_mut() else {
-        return 0;
+        return (0, before);
     };
     let count = set.pairs(met, entry, children.map(|child| child.0), free);
     if any {
-        return count;
+        let last = (met.bits() | 1).ilog2() as usize % WIDTH;
+        let newest = u64::from(children[last].0);
+        return (count, select_unpredictable(count == 0, before, newest));
     }
     if count > SORTED {
         sort_many(free, count);
-    } else if let Some(keys) = top[count..].first_chunk_mut() {
-        sort(keys);
+        return (count, free[(count - 1) % WIDTH]);
     }
-    count
+    (count, top[count..].first_chunk_mut().map_or(before, sort))
 }
 
-/// Five comparisons; the smallest comes last.
+/// Five comparisons; the smallest, which is given back, comes last.
 #[inline(always)]
-fn sort(keys: &mut [u64; SORTED]) {
+fn sort(keys: &mut [u64; SORTED]) -> u64 {
     let order = |a: u64, b: u64| (a.max(b), a.min(b));
     let [a, b, c, d] = *keys;
     let ((a, b), (c, d)) = (order(a, b), order(c, d));
     let ((a, c), (b, d)) = (order(a, c), order(b, d));
     let (b, c) = order(b, c);
     *keys = [a, b, c, d];
+    d
 }
 
 #[cold]
@@ -76,7 +81,8 @@ mod tests {
     fn the_network_sorts() {
         for bits in 0..1_u64 << SORTED {
             let mut keys = [0, 1, 2, 3].map(|place| bits >> place & 1);
-            sort(&mut keys);
+            let smallest = sort(&mut keys);
+            assert_eq!(smallest, keys[SORTED - 1]);
             assert!(keys.is_sorted_by(|a, b| a >= b), "{bits:b}: {keys:?}");
         }
     }

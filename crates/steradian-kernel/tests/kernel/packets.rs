@@ -171,14 +171,20 @@ fn bundles_of_any_place_and_scale_agree() {
     }
 }
 
-/// Segments from neighbouring points to a lamp: in the open, behind things, through spheres, to the very surface of what they end on.
+/// Segments from neighbouring points to a lamp: in the open, behind things, through spheres, to the very surface of what they end on; and
+/// through so much that packets are given up.
 #[test]
 fn shadow_rays_to_a_lamp_agree() {
-    let geometry = mixed_scene();
+    for geometry in [mixed_scene(), random::soup(2000, 0.1, 12)] {
+        assert_same_to_a_lamp(&geometry);
+    }
+}
+
+fn assert_same_to_a_lamp(geometry: &Geometry) {
     let mut random = random::Random::new(8);
-    for size in [0.0, 0.02, 0.3] {
+    for size in [0.0, 0.02, 0.3, 0.8] {
         let mut rays = RayBatch::default();
-        for _ in 0..200 {
+        for _ in 0..100 {
             let (place, lamp) = (random.point(2.9), random.point(2.0));
             for k in 0..16 {
                 let from = [place[0] + 0.003 * k as f32, place[1], place[2]];
@@ -187,6 +193,6 @@ fn shadow_rays_to_a_lamp_agree() {
                 rays.push(from, direction, [1.0, 0.999, 2.0][k % 3]);
             }
         }
-        assert_same_as_alone(&geometry, &rays);
+        assert_same_as_alone(geometry, &rays);
     }
 }
