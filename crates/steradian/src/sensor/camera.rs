@@ -20,7 +20,7 @@ mod projection;
 
 pub use projection::{Fisheye, Projection};
 
-use crate::geometry::{Direction, Frame, Point, Vector};
+use crate::geometry::{Bounds, Direction, Frame, Point, Vector};
 use crate::quantity::SolidAngle;
 
 /// A camera: a place, a frame and a projection.
@@ -48,6 +48,20 @@ pub struct Camera {
     projection: Projection,
     /// To the right, down and ahead.
     frame: Frame,
+}
+
+/// Pixels beyond the picture from which filters reach it.
+const BEYOND: f64 = 2.0;
+
+/// How a camera sees a point.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct Sight {
+    /// The film position, which may be beyond the borders of the picture.
+    pub film: [f64; 2],
+    /// Where the ray to the point starts.
+    pub from: Point,
+    /// Pixels per square metre at the point, of an area that faces the ray.
+    pub pixels_per_area: f64,
 }
 
 impl Camera {
@@ -111,6 +125,55 @@ impl Camera {
         Some(std::array::from_fn(|axis| {
             middle[axis] + scale[axis] * plane[axis]
         }))
+    }
+
+    /// How a point is seen through this place of the lens; `None` where no film position sees it.
+    ///
+    /// ```
+    /// use steradian::geometry::{Point, Vector};
+    /// use steradian::quantity::Angle;
+    /// use steradian::sensor::{Camera, Projection};
+    ///
+    /// // At 2 m a picture of 90° across is 4 m wide: 100 pixels are 25 a metre.
+    /// let projection = Projection::Perspective { fov: Angle::from_degrees(90.0) };
+    /// let (ahead, up) = (Point::new(0.0, 2.0, 0.0), Vector::new(0.0, 0.0, 1.0));
+    /// let camera = Camera::new(Point::ORIGIN, ahead, up, projection, [100, 100]).unwrap();
+    /// let sight = camera.sight(ahead, [0.0; 2]).unwrap();
+    /// assert_eq!(sight.film, [50.0, 50.0]);
+    /// assert!((sight.pixels_per_area - 625.0).abs() < 1e-9);
+    /// ```
+    pub fn sight(&self, point: Point, lens: [f64; 2]) -> Option<Sight> {
+        let film = self.film_of(point, lens)?;
+        let local = self.frame.vector_to_local(point - self.position);
+        let (start, density) = self.projection.sight(local, lens)?;
+        let (_, scale) = self.middle_and_scale();
+        Some(Sight {
+            film,
+            from: self.position + self.frame.vector_to_world(start),
+            pixels_per_area: density * scale[0] * scale[1],
+        })
+    }
+
+    /// False only if no part of a box is in the picture or within the reach of its filter. Nothing is known of projections other than the
+    /// perspective one.
+    pub fn may_see(&self, bounds: &Bounds) -> bool {
+        let Projection::Perspective { fov } = self.projection else {
+            return true;
+        };
+        let [width, height] = self.resolution.map(f64::from);
+        let slope = |size: f64| (fov / 2.0).tan() * (size + 2.0 * BEYOND) / width;
+        let [right, down] = [slope(width), slope(height)];
+        let corners = bounds.corners();
+        let corners = corners.map(|corner| self.frame.vector_to_local(corner - self.position));
+        let is_beyond = |side: &dyn Fn(&Vector) -> bool| corners.iter().all(side);
+        ![
+            is_beyond(&|at| at.z <= 0.0),
+            is_beyond(&|at| at.x > at.z * right),
+            is_beyond(&|at| -at.x > at.z * right),
+            is_beyond(&|at| at.y > at.z * down),
+            is_beyond(&|at| -at.y > at.z * down),
+        ]
+        .contains(&true)
     }
 
     /// Solid angle per pixel at a film position, seen from the middle of the lens: the limit for small pixels of the

@@ -18,7 +18,7 @@ mod places;
 pub(crate) mod readout;
 
 pub use balance::{Account, Entry, Term};
-pub use camera::{Camera, Fisheye, Projection};
+pub use camera::{Camera, Fisheye, Projection, Sight};
 pub use layout::Layout;
 pub(crate) use layout::greatest_spacing;
 pub use places::Places;

@@ -6,16 +6,19 @@
 
 mod optics;
 
+use std::ops::Range;
+
 use self::optics::Optics;
 use super::branching::{BRANCHES, LIGHT_BLOCK};
 use super::channels;
 use super::columns::{BATCH, Flight, Workspace};
+use super::light_tracing::{Aims, LightTracer};
 use super::measure::WAVELENGTH_BLOCK;
 use super::path::Tracer;
 use super::profile::Stage;
 use super::scatter;
 use super::tables::Tables;
-use crate::estimation::film::{PixelBatch, PixelSampler};
+use crate::estimation::film::{PixelBatch, PixelSampler, Splat};
 use crate::sampling::block;
 use crate::scene::CAMERA_CHANNELS;
 use crate::sensor::Camera;
@@ -30,17 +33,31 @@ pub(super) struct CameraSampler<'a> {
     density: Option<WavelengthDensity>,
     /// Channels of the film, of a spectral run.
     channels: [usize; 4],
+    /// Finds what paths from here cannot, if there is any.
+    light: Option<LightTracer<'a>>,
 }
 
 impl<'a> CameraSampler<'a> {
     pub fn new(tracer: Tracer<'a>, camera: &Camera, density: Option<WavelengthDensity>) -> Self {
         let lanes = tracer.tables.scene.lanes();
+        let channels = CAMERA_CHANNELS.map(|name| lanes.channel(name).unwrap_or(0));
+        let aims = Aims::new(tracer.tables);
+        let light = aims.map(|aims| LightTracer {
+            tables: tracer.tables,
+            set: tracer.set,
+            max_depth: tracer.max_depth,
+            camera: camera.clone(),
+            aims,
+            density: density.clone(),
+            channels,
+        });
         Self {
             origin: tracer.tables.scene.surfaces().to_kernel(camera.position),
             optics: Optics::new(camera),
             tracer,
-            channels: CAMERA_CHANNELS.map(|name| lanes.channel(name).unwrap_or(0)),
+            channels,
             density,
+            light,
         }
     }
 
@@ -114,6 +131,16 @@ impl PixelSampler for CameraSampler<'_> {
             }
         }
         paths.watch.lap(Stage::Camera);
+    }
+
+    fn has_splats(&self) -> bool {
+        self.light.is_some()
+    }
+
+    fn splat(&self, indices: Range<u32>, key: u64, _: &mut Workspace, out: &mut Vec<Splat>) {
+        if let Some(light) = &self.light {
+            light.trace(indices, key, out);
+        }
     }
 }
 

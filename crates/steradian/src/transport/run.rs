@@ -9,7 +9,7 @@ use super::camera::CameraSampler;
 use super::channels;
 use super::path::Tracer;
 use super::tables::Tables;
-use super::unsampled::unsampled;
+use super::unsampled::unsampled_in_picture;
 use crate::estimation::film::{Exposure, Film, Filter, PASSES, expose};
 use crate::estimation::{EstimationError, Observer, Plan, Stopping};
 use crate::sampling::hash;
@@ -153,7 +153,8 @@ pub fn render(
         merge_groups: true,
     };
     let density = channels::density(scene, sensor);
-    let sampler = CameraSampler::new(tracer, &camera.with_resolution(resolution), density);
+    let camera = camera.with_resolution(resolution);
+    let sampler = CameraSampler::new(tracer, &camera, density);
     let exposure = expose(
         &sampler,
         &film(scene, sensor, resolution, options.filter),
@@ -169,7 +170,7 @@ pub fn render(
         exposure,
         lanes: camera_channels(scene),
         readouts: sensor.readouts.clone(),
-        unsampled: unsampled(scene),
+        unsampled: unsampled_in_picture(scene, &camera),
         warnings: scene.warnings().to_vec(),
         shard: options.plan.shard,
     })

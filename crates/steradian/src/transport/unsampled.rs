@@ -1,23 +1,53 @@
 //! Path classes that no active estimator can sample.
 //!
 //! A light without extent is found by next-event estimation only, and a polished surface couples single directions only:
-//! the light that such a surface throws from such a light onto other surfaces, and its image there, are not sampled. They
-//! are told, never left out in silence. What a pane lets straight through is not among them, as next-event rays pass, except in the
+//! the light that such a surface throws from such a light onto other surfaces, and its image there, are not sampled by readings. Pictures
+//! lack only what a polished surface shows to the camera of it: the image of the light, and the image of what the light was thrown on, as
+//! [light tracing](super::light_tracing) finds the rest. What is missing is told, never left out in silence. What a pane lets straight through is not among them, as next-event rays pass, except in the
 //! flux that leaves the pane itself, where no ray is left to pass.
 
 use crate::brdf::Scatter;
 use crate::geometry::{Direction, Vector};
-use crate::light::Light;
+use crate::light::{self, Light};
 use crate::material::{ColorLanes, Material, MaterialId, Site};
 use crate::scene::Scene;
-use crate::sensor::{FluxOf, FluxSurface, Kind};
-use crate::shape::PartId;
+use crate::sensor::{Camera, FluxOf, FluxSurface, Kind};
+use crate::shape::{Form, PartId, ShapeId};
 use crate::spectrum::Wavelengths;
 
-/// One sentence for each class that is missing.
+/// One sentence for each class that is missing from readings.
 pub fn unsampled(scene: &Scene) -> Vec<String> {
-    let lamps = || scene.lights().iter().filter(|light| light.is_delta());
-    if lamps().next().is_none() {
+    let mut classes = thrown(scene, |_, _| Some(""));
+    for name in fluxes_of_panes(scene) {
+        let through =
+            |light: &Light| format!("light of `{}` in flux `{name}` of a pane", light.name);
+        classes.extend(lamps(scene).map(through));
+    }
+    classes
+}
+
+/// One sentence for each class that is missing from a picture, which has what [light tracing](super::light_tracing) finds.
+pub(super) fn unsampled_in_picture(scene: &Scene, camera: &Camera) -> Vec<String> {
+    let seen = polished_shapes(scene);
+    let mut seen = seen.iter().map(|id| &scene.surfaces().shape(*id).form);
+    let is_seen = seen.any(|form| form.bounds().is_none_or(|bounds| camera.may_see(&bounds)));
+    thrown(scene, |light, material| {
+        let is_endless = matches!(light.kind, light::Kind::Directional { .. });
+        if is_endless && is_on_plane(scene, material) {
+            Some("")
+        } else {
+            is_seen.then_some(", as polished surfaces show it to the camera")
+        }
+    })
+}
+
+fn lamps(scene: &Scene) -> impl Iterator<Item = &Light> {
+    scene.lights().iter().filter(|light| light.is_delta())
+}
+
+/// What polished materials throw from lights without extent, of which `part` says what is missing, if anything is.
+fn thrown(scene: &Scene, part: impl Fn(&Light, MaterialId) -> Option<&'static str>) -> Vec<String> {
+    if lamps(scene).next().is_none() {
         return vec![];
     }
     let mut used: Vec<_> = scene
@@ -31,20 +61,29 @@ pub fn unsampled(scene: &Scene) -> Vec<String> {
         .into_iter()
         .filter_map(|id| Some((id, missing(scene.material(id))?)))
         .collect();
-    let of_lamp = |name: &str| {
+    let of_lamp = |light: &Light| {
         let sentence = |(id, what): &(MaterialId, &str)| {
-            let material = &scene.materials()[id.0 as usize].0;
-            format!("light of `{name}` {what} of material `{material}`")
+            let (name, material) = (&light.name, &scene.materials()[id.0 as usize].0);
+            let part = part(light, *id)?;
+            Some(format!(
+                "light of `{name}` {what} of material `{material}`{part}"
+            ))
         };
-        polished.iter().map(sentence).collect::<Vec<_>>()
+        polished.iter().filter_map(sentence).collect::<Vec<_>>()
     };
-    let mut classes: Vec<_> = lamps().flat_map(|light| of_lamp(&light.name)).collect();
-    for name in fluxes_of_panes(scene) {
-        let through =
-            |light: &Light| format!("light of `{}` in flux `{name}` of a pane", light.name);
-        classes.extend(lamps().map(through));
-    }
-    classes
+    lamps(scene).flat_map(of_lamp).collect()
+}
+
+/// Whether a material is that of an infinite plane.
+fn is_on_plane(scene: &Scene, material: MaterialId) -> bool {
+    let shapes = scene.surfaces().shapes().iter();
+    let mut parts = shapes
+        .filter(|shape| matches!(shape.form, Form::Plane { .. }))
+        .flat_map(|shape| &shape.parts);
+    parts.any(|part| {
+        let part = scene.parts()[part.0 as usize];
+        [part.front, part.back].contains(&material)
+    })
 }
 
 /// Sensors that count what leaves a pane.
@@ -68,6 +107,25 @@ fn fluxes_of_panes(scene: &Scene) -> impl Iterator<Item = &str> {
             _ => false,
         });
     concerned.map(|sensor| sensor.name.as_str())
+}
+
+/// Shapes that send light from a single direction into a single direction.
+pub(super) fn polished_shapes(scene: &Scene) -> Vec<ShapeId> {
+    let materials = scene.materials().iter();
+    let polished: Vec<_> = materials
+        .map(|(_, material)| missing(material).is_some())
+        .collect();
+    let is_polished = |part: &PartId| {
+        let part = scene.parts()[part.0 as usize];
+        [part.front, part.back]
+            .iter()
+            .any(|id| polished[id.0 as usize])
+    };
+    let shapes = scene.surfaces().shapes().iter().enumerate();
+    shapes
+        .filter(|(_, shape)| shape.parts.iter().any(is_polished))
+        .map(|(number, _)| ShapeId(number as u32))
+        .collect()
 }
 
 /// What a material does to light in single directions, if anything.

@@ -15,6 +15,8 @@
 //! | f | filter along one axis | 1/pixel |
 //! | n_j | samples of pixel j in one pass | – |
 //!
+//! Samples that choose their own places, as paths from the lights do, are [splatted](Splat) on top.
+//!
 //! The value of a pixel is the mean over passes, its standard error their spread over √R. As filters overlap, neighbours are correlated.
 //!
 //! A tolerance is judged tile by tile (32 × 32 pixels): the mean over its pixels of half-width / allowed half-width must not
@@ -25,11 +27,15 @@
 mod exposure;
 mod filter;
 mod session;
+mod splat;
 mod tile;
 
 pub use exposure::{Exposure, merge_exposures};
 pub use filter::Filter;
 pub use session::expose;
+pub use splat::Splat;
+
+use std::ops::Range;
 
 /// Passes of an image unless asked otherwise.
 pub const PASSES: u32 = 4;
@@ -71,6 +77,21 @@ pub trait PixelSampler: Sync {
         workspace: &mut Self::Workspace,
         out: &mut [[f32; CHANNELS]],
     );
+
+    /// Whether there are samples, too, that choose their own places: as many a pass as the film has pixels, times the most samples of a pixel.
+    fn has_splats(&self) -> bool {
+        false
+    }
+
+    /// Adds to `out` what samples of these indices bring. It must depend on key and indices only.
+    fn splat(
+        &self,
+        _indices: Range<u32>,
+        _key: u64,
+        _workspace: &mut Self::Workspace,
+        _out: &mut Vec<Splat>,
+    ) {
+    }
 }
 
 /// At most [`BATCH`](super::BATCH) film positions, by columns of equal length.

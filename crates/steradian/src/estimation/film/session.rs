@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use super::exposure::PassImage;
-use super::tile::{BUFFER_SIDE, Job, Painter, RIM, SLICE, Tile, tiles};
+use super::splat::{BUNDLE, Bundle, Splatter};
+use super::tile::{BUFFER_SIDE, Job, Painter, RIM, SLICE, Task, Tile, tiles};
 use super::{CHANNELS, Exposure, Film, PixelSampler, TILE};
 use crate::estimation::cells::half_width_factor;
 use crate::estimation::crew::{Crew, Ledger, Standing};
@@ -49,6 +50,7 @@ pub fn expose<S: PixelSampler>(
         film,
         plan,
         tiles: tiles(film),
+        has_splats: sampler.has_splats(),
         crew,
     };
     match (plan.stop.samples, plan.stop.time) {
@@ -62,6 +64,7 @@ struct Session<'a, S: PixelSampler> {
     film: &'a Film,
     plan: &'a Plan,
     tiles: Vec<Tile>,
+    has_splats: bool,
     crew: Crew<'a, Painter<'a, S>>,
 }
 
@@ -172,6 +175,16 @@ impl<S: PixelSampler> Session<'_, S> {
         rows.map(row).sum::<f64>() / pixels
     }
 
+    /// Samples of a pass that choose their own places.
+    fn splats(&self, lengths: &[u64]) -> u32 {
+        if !self.has_splats {
+            return 0;
+        }
+        let longest = lengths.iter().copied().max().unwrap_or(0);
+        let pixels = u64::from(self.film.width) * u64::from(self.film.height);
+        u32::try_from(pixels.saturating_mul(longest)).unwrap_or(u32::MAX)
+    }
+
     /// Runs every pass that this shard owns.
     fn expose(
         &mut self,
@@ -189,11 +202,12 @@ impl<S: PixelSampler> Session<'_, S> {
             .zip(lengths)
             .map(|(tile, length)| tile.pixels() * length)
             .sum();
+        let splats = self.splats(lengths);
         let mut standing = Standing {
             phase,
             begin: self.crew.elapsed(),
             samples: 0,
-            planned: a_pass * owned.len() as u64,
+            planned: (a_pass + u64::from(splats)) * owned.len() as u64,
             relative_error,
         };
         for pass in owned {
@@ -201,7 +215,8 @@ impl<S: PixelSampler> Session<'_, S> {
                 combine(mix_64(self.plan.seed), u64::from(pass)),
                 phase.key(),
             );
-            let mut image = PassLedger::new(self.film, &self.tiles, lengths, key, &mut standing);
+            let counts = (lengths, splats);
+            let mut image = PassLedger::new(self.film, &self.tiles, counts, key, &mut standing);
             if self.crew.run(&mut image)?.is_break() {
                 return Ok((exposure, ControlFlow::Break(())));
             }
@@ -228,13 +243,16 @@ struct PassLedger<'a> {
     done: u64,
     merged: usize,
     spare: Vec<Vec<[f32; CHANNELS]>>,
+    splatter: Splatter,
+    /// How many samples choose their own places, are issued, and are merged.
+    splats: [u32; 3],
 }
 
 impl<'a> PassLedger<'a> {
     fn new(
         film: &'a Film,
         tiles: &'a [Tile],
-        lengths: &'a [u64],
+        (lengths, splats): (&'a [u64], u32),
         key: u64,
         standing: &'a mut Standing,
     ) -> Self {
@@ -250,6 +268,8 @@ impl<'a> PassLedger<'a> {
             done: 0,
             merged: 0,
             spare: Vec::new(),
+            splatter: Splatter::new(film),
+            splats: [splats, 0, 0],
         }
     }
 
@@ -281,10 +301,8 @@ impl<'a> PassLedger<'a> {
     }
 }
 
-impl Ledger for &mut PassLedger<'_> {
-    type Job = Job;
-
-    fn issue(&mut self) -> Option<Job> {
+impl PassLedger<'_> {
+    fn issue_tile(&mut self) -> Option<Job> {
         let tile = *self.tiles.get(self.number)?;
         let count = (self.lengths[self.number] - self.done).min(u64::from(SLICE)) as u32;
         let sums = self.spare.pop().unwrap_or_default();
@@ -304,7 +322,18 @@ impl Ledger for &mut PassLedger<'_> {
         Some(job)
     }
 
-    fn merge(&mut self, job: Job) -> Result<(), EstimationError> {
+    fn issue_splats(&mut self) -> Option<Bundle> {
+        let [count, issued, _] = &mut self.splats;
+        let indices = *issued..issued.saturating_add(BUNDLE).min(*count);
+        *issued = indices.end;
+        (!indices.is_empty()).then(|| Bundle {
+            indices,
+            key: combine(self.film.key, self.key),
+            splats: Vec::new(),
+        })
+    }
+
+    fn merge_tile(&mut self, job: Job) -> Result<(), EstimationError> {
         if let Some(([x, y], count)) = job.fault {
             return Err(EstimationError::NonFinitePixel { x, y, count });
         }
@@ -315,8 +344,35 @@ impl Ledger for &mut PassLedger<'_> {
         Ok(())
     }
 
+    fn merge_splats(&mut self, bundle: &Bundle) -> Result<(), EstimationError> {
+        bundle.check()?;
+        let scale = 1.0 / f64::from(self.splats[0]);
+        for splat in &bundle.splats {
+            self.splatter.add(splat, scale, &mut self.sums);
+        }
+        self.standing.samples += bundle.indices.len() as u64;
+        self.splats[2] = bundle.indices.end;
+        Ok(())
+    }
+}
+
+impl Ledger for &mut PassLedger<'_> {
+    type Job = Task;
+
+    fn issue(&mut self) -> Option<Task> {
+        let tile = self.issue_tile().map(Task::Tile);
+        tile.or_else(|| self.issue_splats().map(Task::Splats))
+    }
+
+    fn merge(&mut self, task: Task) -> Result<(), EstimationError> {
+        match task {
+            Task::Tile(job) => self.merge_tile(job),
+            Task::Splats(bundle) => self.merge_splats(&bundle),
+        }
+    }
+
     fn is_complete(&self) -> bool {
-        self.merged == self.tiles.len()
+        self.merged == self.tiles.len() && self.splats[2] == self.splats[0]
     }
 
     fn standing(&self) -> Standing {

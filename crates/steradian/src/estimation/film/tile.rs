@@ -1,8 +1,9 @@
-//! One job of an image: some samples of every pixel of a tile, splatted into a buffer.
+//! The jobs of an image: some samples of every pixel of a tile, splatted into a buffer, or some that choose their own places.
 
 use steradian_kernel::{InstructionSet, Work};
 
 use super::filter::{TAPS, Weights};
+use super::splat::Bundle;
 use super::{CHANNELS, Film, Filter, PixelBatch, PixelSampler, TILE};
 use crate::estimation::BATCH;
 use crate::estimation::crew::Worker;
@@ -70,6 +71,12 @@ impl Job {
     pub(super) fn samples(&self) -> u64 {
         self.tile.pixels() * u64::from(self.count)
     }
+}
+
+/// A job of either kind.
+pub(super) enum Task {
+    Tile(Job),
+    Splats(Bundle),
 }
 
 /// Samples tiles of a film.
@@ -147,6 +154,16 @@ impl<'a, S: PixelSampler> Painter<'a, S> {
             .sample(&batch, &mut columns.sampler, &mut columns.values[..count]);
     }
 
+    fn paint(&self, job: &mut Job, columns: &mut Columns<S::Workspace>) {
+        job.sums.clear();
+        job.sums.resize(BUFFER, [0.0; CHANNELS]);
+        self.lay_out(job, columns);
+        for index in job.first..job.first + job.count {
+            self.sample(index, columns);
+            self.splat(job, columns);
+        }
+    }
+
     fn splat(&self, job: &mut Job, columns: &Columns<S::Workspace>) {
         let count = columns.keys.len();
         let [x, y] = [0, 1].map(|axis: usize| &columns.numbers[axis][..count]);
@@ -167,7 +184,7 @@ impl<'a, S: PixelSampler> Painter<'a, S> {
 }
 
 impl<S: PixelSampler> Worker for Painter<'_, S> {
-    type Job = Job;
+    type Job = Task;
     type Workspace = Columns<S::Workspace>;
 
     fn new_workspace(&self) -> Self::Workspace {
@@ -181,13 +198,15 @@ impl<S: PixelSampler> Worker for Painter<'_, S> {
         }
     }
 
-    fn perform(&self, job: &mut Job, columns: &mut Self::Workspace) {
-        job.sums.clear();
-        job.sums.resize(BUFFER, [0.0; CHANNELS]);
-        self.lay_out(job, columns);
-        for index in job.first..job.first + job.count {
-            self.sample(index, columns);
-            self.splat(job, columns);
+    fn perform(&self, task: &mut Task, columns: &mut Self::Workspace) {
+        match task {
+            Task::Tile(job) => self.paint(job, columns),
+            Task::Splats(bundle) => self.sampler.splat(
+                bundle.indices.clone(),
+                bundle.key,
+                &mut columns.sampler,
+                &mut bundle.splats,
+            ),
         }
     }
 }

@@ -171,6 +171,28 @@ impl Projection {
         }
     }
 
+    /// Where the ray to a point of the camera's frame starts, and how much of the plane an area at the point fills that faces the
+    /// ray, per square metre: 1/(ω r²) with the solid angle ω per unit of the plane.
+    pub(super) fn sight(&self, point: Vector, lens: [f64; 2]) -> Option<(Vector, f64)> {
+        let start = match *self {
+            Self::Orthographic { width } => {
+                let half = 0.5 * width.to_metres();
+                return Some((Vector::new(point.x, point.y, 0.0), 1.0 / (half * half)));
+            }
+            Self::ThinLens {
+                aperture_radius, ..
+            } => on_lens(aperture_radius, lens),
+            _ => Vector::ZERO,
+        };
+        let way = point - start;
+        let plane = match *self {
+            Self::ThinLens { fov, .. } => Self::Perspective { fov }.plane_of(way, lens)?,
+            _ => self.plane_of(way, lens)?,
+        };
+        let density = 1.0 / (self.solid_angle_density(plane) * way.dot(way));
+        density.is_finite().then_some((start, density))
+    }
+
     /// Solid angle per unit of the plane, in sr.
     pub(super) fn solid_angle_density(&self, [a, b]: [f64; 2]) -> f64 {
         match *self {

@@ -336,3 +336,51 @@ fn a_camera_needs_a_direction_and_an_up() {
     assert!(new(Point::ORIGIN + x, x * -2.0).is_none());
     assert!(new(Point::ORIGIN + x * f64::NAN, z).is_none());
 }
+
+/// Pixels per area are those of a small square that faces the ray, seen through the same place of the lens: to second order in its
+/// size, 1e-3 of the distance, which moves the lines of a picture by less than 1e-5 of it.
+#[test]
+fn a_point_is_seen_as_large_as_a_small_square_around_it() {
+    for projection in all() {
+        let camera = camera(projection, SIZE);
+        for film in [[200.0, 100.0], [170.0, 60.0], [230.0, 130.0]] {
+            let lens = [0.3, -0.6];
+            let Some((start, direction)) = camera.ray(film, lens) else {
+                continue;
+            };
+            let point = start + direction * 2.5;
+            let sight = camera.sight(point, lens).unwrap();
+            assert!((sight.from - start).length() < 1e-12, "{projection:?}");
+            let frame = Frame::from_normal(direction);
+            let at = |offset: Vector| camera.film_of(point + offset, lens).unwrap();
+            let edge = |axis: Direction| {
+                let (ahead, behind) = (at(axis * 1e-3), at(axis * -1e-3));
+                [0, 1].map(|i: usize| (ahead[i] - behind[i]) / 2e-3)
+            };
+            let [a, b] = [edge(frame.tangent()), edge(frame.bitangent())];
+            let exact = (a[0] * b[1] - a[1] * b[0]).abs();
+            let off = (sight.pixels_per_area - exact).abs() / exact;
+            assert!(off < 1e-5, "{projection:?} {film:?}: {off}");
+        }
+    }
+}
+
+#[test]
+fn boxes_beside_and_behind_are_not_seen() {
+    let camera = camera(perspective(90.0), SIZE);
+    let around = |x: f64, y: f64, z: f64| {
+        let (middle, half) = (Point::new(x, y, z), Vector::new(0.2, 0.2, 0.2));
+        Bounds::around([middle - half, middle + half])
+    };
+    for (seen, bounds) in [
+        (true, around(1.0, 5.0, 1.0)),
+        (true, around(1.0, 1.0, 1.0)),
+        (true, around(4.9, 5.0, 1.0)),
+        (false, around(5.6, 5.0, 1.0)),
+        (false, around(-3.6, 5.0, 1.0)),
+        (false, around(1.0, 0.5, 1.0)),
+        (false, around(1.0, 5.0, 5.0)),
+    ] {
+        assert_eq!(camera.may_see(&bounds), seen, "{bounds:?}");
+    }
+}
