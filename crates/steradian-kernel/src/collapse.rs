@@ -14,7 +14,8 @@
 //! High-Performance Graphics 2017, §3.1 and equations 1–3.
 
 use crate::binary_tree::{Aabb, BinaryTree, Boundable};
-use crate::node::{Bounds, Child, Leaf, Node, WIDTH};
+use crate::node::{Bounds, Child, Node, WIDTH};
+use crate::open_leaves::OpenLeaves;
 use crate::wide_tree::WideTree;
 
 const NODE_COST: f32 = 1.0;
@@ -129,6 +130,7 @@ pub(crate) fn grow(
         items,
         corners,
         tree,
+        open_leaves: OpenLeaves::default(),
     };
     collapse.run(root)
 }
@@ -139,6 +141,7 @@ struct Collapse<'a, F> {
     items: &'a [Boxed],
     corners: F,
     tree: &'a mut WideTree,
+    open_leaves: OpenLeaves,
 }
 
 impl<F: Fn(u32) -> [[f32; 3]; 3]> Collapse<'_, F> {
@@ -204,8 +207,12 @@ impl<F: Fn(u32) -> [[f32; 3]; 3]> Collapse<'_, F> {
         if let Some(child) = self.gather(node, &mut triangles) {
             return child;
         }
-        self.tree.leaves.push(Leaf::new(&triangles, &self.corners));
-        Child::leaf(self.tree.leaves.len() - 1)
+        let leaves = &mut self.tree.leaves;
+        let (leaf, used) = self.open_leaves.room_for(triangles.len(), leaves);
+        for (lane, triangle) in (used..).zip(triangles) {
+            leaves[leaf].set(lane, triangle, (self.corners)(triangle));
+        }
+        Child::leaf(leaf)
     }
 
     /// The triangles below a node that becomes a leaf, or the only other item.

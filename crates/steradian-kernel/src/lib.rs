@@ -38,6 +38,7 @@ mod collapse;
 mod geometry;
 mod instruction_set;
 mod node;
+mod open_leaves;
 mod packet;
 mod parts;
 mod prepared_ray;

@@ -150,21 +150,18 @@ pub(crate) struct Leaf {
 }
 
 impl Leaf {
-    /// The given triangles, at most eight, in this order.
-    pub(crate) fn new(triangles: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Self {
-        let mut leaf = Self {
-            corners: [[[f32::NAN; WIDTH]; 3]; 3],
-            triangles: [u32::MAX; WIDTH],
-        };
-        for (lane, &number) in triangles.iter().enumerate() {
-            leaf.triangles[lane] = number;
-            for (vertex, corner) in corners(number).into_iter().enumerate() {
-                for (axis, coordinate) in corner.into_iter().enumerate() {
-                    leaf.corners[vertex][axis][lane] = coordinate;
-                }
+    pub(crate) const EMPTY: Self = Self {
+        corners: [[[f32::NAN; WIDTH]; 3]; 3],
+        triangles: [u32::MAX; WIDTH],
+    };
+
+    pub(crate) fn set(&mut self, lane: usize, number: u32, corners: [[f32; 3]; 3]) {
+        self.triangles[lane] = number;
+        for (vertex, corner) in corners.into_iter().enumerate() {
+            for (axis, coordinate) in corner.into_iter().enumerate() {
+                self.corners[vertex][axis][lane] = coordinate;
             }
         }
-        leaf
     }
 
     /// The corners of one triangle, coordinates in the order `axes`.

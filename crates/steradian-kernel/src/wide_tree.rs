@@ -128,7 +128,7 @@ fn boxed(triangles: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Vec<Boxed
 #[cfg(test)]
 mod tests {
     use super::WideTree;
-    use crate::node::{Below, Bounds, WIDTH};
+    use crate::node::{Below, Bounds};
 
     /// A triangle over each unit square of a plane.
     fn corners(number: u32) -> [[f32; 3]; 3] {
@@ -136,35 +136,36 @@ mod tests {
         [[x, y, 0.0], [x + 1.0, y, 0.5], [x, y + 1.0, 1.0]]
     }
 
-    /// Counts what is below a node, whose box is around all of it, and the nodes of the longest way down.
-    fn check(tree: &WideTree, node: usize, counts: &mut [u32], quadrics: &mut u32) -> usize {
+    /// Notes which triangles lie in a leaf of a child whose box is around them, and counts quadrics and the nodes of the longest way down.
+    fn check(tree: &WideTree, node: usize, is_found: &mut [bool], quadrics: &mut u32) -> usize {
         let mut depth = 0;
-        let node = &tree.nodes[node];
-        for lane in (0..WIDTH).filter(|&lane| node.children[lane].0 != u32::MAX) {
-            let inside = match node.children[lane].below() {
+        for (bounds, child) in tree.nodes[node].used() {
+            match child.below() {
                 Below::Node(child) => {
-                    depth = depth.max(check(tree, child, counts, quadrics));
-                    (0..WIDTH)
-                        .map(|lane| tree.nodes[child].bounds(lane))
-                        .collect()
+                    depth = depth.max(check(tree, child, is_found, quadrics));
+                    let inside = tree.nodes[child].used();
+                    let around = inside.fold(bounds, |around, (inside, _)| around.union(inside));
+                    assert_eq!(around, bounds);
                 }
                 Below::Leaf(leaf) => {
-                    let mut inside = Vec::new();
                     for (_, number) in tree.leaves[leaf].lanes() {
-                        counts[number as usize] += 1;
-                        inside.push(Bounds::of_points(&corners(number)));
+                        let inside = Bounds::of_points(&corners(number));
+                        is_found[number as usize] |= bounds.union(inside) == bounds;
                     }
-                    inside
                 }
-                Below::Quadric(_) => {
-                    *quadrics += 1;
-                    vec![]
-                }
-            };
-            let bounds = node.bounds(lane);
-            assert_eq!(inside.into_iter().fold(bounds, Bounds::union), bounds);
+                Below::Quadric(_) => *quadrics += 1,
+            }
         }
         depth + 1
+    }
+
+    /// How often each triangle lies in a leaf.
+    fn counts(tree: &WideTree) -> Vec<u32> {
+        let mut counts = vec![0; 1600];
+        for (_, number) in tree.leaves.iter().flat_map(|leaf| leaf.lanes()) {
+            counts[number as usize] += 1;
+        }
+        counts
     }
 
     #[test]
@@ -172,9 +173,10 @@ mod tests {
         let sphere = (Bounds::of_points(&[[50.0; 3], [51.0; 3]]), 0);
         for most in [7, 100, 1 << 17] {
             let tree = WideTree::build_in_parts((0..1600).collect(), &[sphere], corners, most);
-            let (mut counts, mut quadrics) = ([0; 1600], 0);
-            let depth = check(&tree, 0, &mut counts, &mut quadrics);
-            assert_eq!((counts, quadrics), ([1; 1600], 1));
+            let (mut is_found, mut quadrics) = ([false; 1600], 0);
+            let depth = check(&tree, 0, &mut is_found, &mut quadrics);
+            assert_eq!((is_found, quadrics), ([true; 1600], 1));
+            assert_eq!(counts(&tree), [1; 1600]);
             assert!(
                 depth <= tree.depth && tree.depth <= depth + 2,
                 "{depth}, {}",
