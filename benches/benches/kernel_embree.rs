@@ -78,7 +78,7 @@ fn compare(directory: &Path, mesh: &str, build_only: bool) -> Result<(), Box<dyn
 
 /// Also the processor seconds of a build.
 fn build(geometry: &Geometry) -> Result<(Accelerator, f64), BuildError> {
-    let Repeated { result, seconds } = repeat(|| Accelerator::build(geometry));
+    let Repeated { result, seconds } = repeat(|| Accelerator::build_on_threads(geometry, 1));
     Ok((result?, seconds))
 }
 

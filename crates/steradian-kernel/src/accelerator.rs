@@ -13,9 +13,13 @@ use crate::traversal::{self, Closest, Target};
 use crate::triangle::{self, is_degenerate};
 use crate::turns::{Question, Turns};
 use crate::wide_tree::WideTree;
+use std::num::NonZero;
 
 /// With more quadrics than this a tree is faster than trying all.
 const MOST_QUADRICS_WITHOUT_TREE: usize = 4;
+
+/// Each takes some 50 MB while it builds.
+const MOST_THREADS: usize = 16;
 
 /// A scene prepared for ray queries. Triangles are primitives 0 .. T in input order, quadrics T .. T + Q.
 #[derive(Clone)]
@@ -32,11 +36,21 @@ pub struct Accelerator {
 }
 
 impl Accelerator {
-    /// Checks the geometry and builds the tree. Triangles whose corners lie on a line are kept as numbers but never hit.
+    /// Checks the geometry and builds the tree, above 2²⁰ triangles on as many threads as the machine runs at once, but no more than 16.
+    /// Triangles whose corners lie on a line are kept as numbers but never hit.
     ///
     /// # Errors
     /// [`BuildError`] names the first vertex, triangle or quadric that cannot be used.
     pub fn build(geometry: &Geometry) -> Result<Self, BuildError> {
+        let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
+        Self::build_on_threads(geometry, threads.min(MOST_THREADS))
+    }
+
+    /// The same tree, on so many threads.
+    ///
+    /// # Errors
+    /// Those of [`build`](Self::build).
+    pub fn build_on_threads(geometry: &Geometry, threads: usize) -> Result<Self, BuildError> {
         geometry.validate()?;
         let corners = |triangle: u32| geometry.corners(triangle as usize);
         let mut hittable = Vec::with_capacity(geometry.triangles.len());
@@ -52,7 +66,7 @@ impl Accelerator {
         let small = (geometry.quadrics.len() <= MOST_QUADRICS_WITHOUT_TREE)
             .then(|| SmallScene::new(&hittable, corners))
             .flatten();
-        let tree = WideTree::build(hittable, &bounded, corners);
+        let tree = WideTree::build(hittable, &bounded, corners, threads);
         Ok(Self {
             bounds: tree.bounds(),
             tree,

@@ -36,6 +36,7 @@ mod batch;
 mod binary_tree;
 mod collapse;
 mod geometry;
+mod in_order;
 mod instruction_set;
 mod node;
 mod open_leaves;

@@ -61,7 +61,7 @@ pub(crate) struct Node {
 impl Node {
     pub(crate) const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
-        children: [Child(u32::MAX); WIDTH],
+        children: [Child::NONE; WIDTH],
     };
 
     pub(crate) fn set(&mut self, lane: usize, bounds: &Bounds, child: Child) {
@@ -74,7 +74,7 @@ impl Node {
 
     /// The children and their boxes.
     pub(crate) fn used(&self) -> impl Iterator<Item = (Bounds, Child)> {
-        let lanes = (0..WIDTH).filter(|&lane| self.children[lane].0 != u32::MAX);
+        let lanes = (0..WIDTH).filter(|&lane| self.children[lane] != Child::NONE);
         lanes.map(|lane| (self.bounds(lane), self.children[lane]))
     }
 
@@ -102,6 +102,9 @@ pub(crate) enum Below {
 impl Child {
     const LEAF: u32 = 1 << 31;
     const QUADRIC: u32 = 1 << 30;
+
+    /// In unused lanes.
+    pub(crate) const NONE: Self = Self(u32::MAX);
 
     pub(crate) const fn node(index: usize) -> Self {
         Self(index as u32)

@@ -1,4 +1,4 @@
-//! Many triangles in parts, whose trees are built one after another.
+//! Many triangles in parts, whose trees are built on their own.
 //!
 //! To build a binary tree takes several times the memory of the tree that is kept. So a large mesh is cut into parts before, along the
 //! planes of a grid over the middles of the triangles' boxes. Of all planes through a block of cells that one is taken that makes

@@ -7,7 +7,7 @@
 
 use crate::accelerator::Accelerator;
 use crate::geometry::Quadric;
-use crate::node::{Below, Bounds, Leaf, WIDTH};
+use crate::node::{Below, Bounds, Leaf};
 
 /// Relative to the sum of the magnitudes of a plane equation's terms.
 const MARGIN: f64 = 1e-12;
@@ -38,12 +38,11 @@ pub(crate) fn is_clear(
     let mut clipper = Clipper::default();
     let mut open: Vec<usize> = (0..tree.nodes.len().min(1)).collect();
     while let Some(node) = open.pop() {
-        let node = &tree.nodes[node];
-        for lane in (0..WIDTH).filter(|&lane| node.children[lane].0 != u32::MAX) {
-            if is_outside(&node.bounds(lane), planes) {
+        for (bounds, child) in tree.nodes[node].used() {
+            if is_outside(&bounds, planes) {
                 continue;
             }
-            let blocked = match node.children[lane].below() {
+            let blocked = match child.below() {
                 Below::Node(index) => {
                     open.push(index);
                     false

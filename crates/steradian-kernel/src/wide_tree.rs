@@ -1,7 +1,8 @@
 //! The eight-wide tree, and how it is built: at once, or in parts.
 
 use crate::collapse::{Boxed, Item, grow};
-use crate::node::{Bounds, Leaf, Node, WIDTH};
+use crate::in_order::in_order;
+use crate::node::{Below, Bounds, Child, Leaf, Node, WIDTH};
 use crate::parts::divide;
 
 /// Up to so many triangles make one binary tree, which takes 300 bytes for each while it is built, and more are cut into parts.
@@ -23,25 +24,28 @@ pub(crate) struct WideTree {
 }
 
 impl WideTree {
-    /// Of quadrics by index and triangles by number; degenerate triangles are expected to be left out.
+    /// Of quadrics by index and triangles by number; degenerate triangles are expected to be left out. The tree does not depend on
+    /// the number of threads.
     pub(crate) fn build(
         triangles: Vec<u32>,
         quadrics: &[(Bounds, u32)],
-        corners: impl Fn(u32) -> [[f32; 3]; 3],
+        corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync,
+        threads: usize,
     ) -> Self {
         let most = if triangles.len() <= MOST_AT_ONCE {
             MOST_AT_ONCE
         } else {
             MOST_IN_A_PART
         };
-        Self::build_in_parts(triangles, quadrics, corners, most)
+        Self::build_in_parts(triangles, quadrics, corners, most, threads)
     }
 
     fn build_in_parts(
-        mut triangles: Vec<u32>,
+        triangles: Vec<u32>,
         quadrics: &[(Bounds, u32)],
-        corners: impl Fn(u32) -> [[f32; 3]; 3],
+        corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync,
         most: usize,
+        threads: usize,
     ) -> Self {
         let mut tree = Self::default();
         if triangles.is_empty() && quadrics.is_empty() {
@@ -54,42 +58,65 @@ impl WideTree {
             .collect();
         if triangles.len() <= most {
             items.extend(boxed(&triangles, &corners));
+            drop(triangles);
         } else {
-            tree.add_parts(&mut triangles, &corners, most, &mut items);
+            tree.add_parts(triangles, &corners, most, threads, &mut items);
         }
-        drop(triangles);
         tree.depth += grow(&mut tree, 0, &items, &corners);
         tree
     }
 
-    /// Builds the parts, the last one first, and forgets its triangles.
+    /// Builds the parts, of which each thread has one in hand, and adds what is below their roots, which give way to nodes that know
+    /// of all parts.
     fn add_parts(
         &mut self,
-        triangles: &mut Vec<u32>,
-        corners: impl Fn(u32) -> [[f32; 3]; 3],
+        triangles: Vec<u32>,
+        corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync,
         most: usize,
+        threads: usize,
         items: &mut Vec<Boxed>,
     ) {
-        let count = triangles.len();
-        let mut parts = divide(triangles, |n| Bounds::of_points(&corners(n)), most);
-        parts.sort_by_key(|part| part.start);
-        let mut has_room = false;
-        for part in parts.into_iter().rev() {
-            items.extend(self.part(&boxed(&triangles[part.clone()], &corners), &corners));
-            triangles.truncate(part.start);
-            triangles.shrink_to_fit();
-            let built = count - part.start;
-            if !has_room && built >= most {
-                self.make_room(count as f64 / built as f64);
-                has_room = true;
-            }
-        }
+        let (count, mut built, mut has_room) = (triangles.len(), 0, false);
+        let work = |part: Vec<u32>| (part.len(), Self::of_part(&part, &corners));
+        in_order(
+            threads,
+            parts(triangles, &corners, most),
+            work,
+            |(length, part)| {
+                items.extend(self.append(part));
+                built += length;
+                if !has_room && built >= most {
+                    self.make_room(count as f64 / built as f64);
+                    has_room = true;
+                }
+            },
+        );
     }
 
-    /// The trees of a part: those below its root, which gives way to nodes that know of all parts.
-    fn part(&mut self, part: &[Boxed], corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Vec<Boxed> {
-        self.depth = self.depth.max(grow(self, 0, part, corners));
-        let root = std::mem::replace(&mut self.nodes[0], Node::EMPTY);
+    fn of_part(triangles: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Self {
+        let mut tree = Self::default();
+        tree.nodes.push(Node::EMPTY);
+        tree.depth = grow(&mut tree, 0, &boxed(triangles, &corners), &corners);
+        tree
+    }
+
+    /// Moves another tree in here, but for its root, whose children are given back.
+    fn append(&mut self, other: Self) -> Vec<Boxed> {
+        let (nodes, leaves) = (self.nodes.len() - 1, self.leaves.len());
+        let moved = |child: Child| match child.below() {
+            _ if child == Child::NONE => child,
+            Below::Node(index) => Child::node(index + nodes),
+            Below::Leaf(index) => Child::leaf(index + leaves),
+            Below::Quadric(_) => child,
+        };
+        let mut added = other.nodes.into_iter().map(|mut node| {
+            node.children = node.children.map(moved);
+            node
+        });
+        let root = added.next().unwrap_or(Node::EMPTY);
+        self.nodes.extend(added);
+        self.leaves.extend(other.leaves);
+        self.depth = self.depth.max(other.depth);
         root.used()
             .map(|(bounds, child)| Boxed(bounds, Item::Subtree(child)))
             .collect()
@@ -115,6 +142,18 @@ impl WideTree {
         self.nodes.reserve_exact(more(self.nodes.len()));
         self.leaves.reserve_exact(more(self.leaves.len()));
     }
+}
+
+/// The triangles of each part.
+fn parts(
+    mut triangles: Vec<u32>,
+    corners: impl Fn(u32) -> [[f32; 3]; 3],
+    most: usize,
+) -> Vec<Vec<u32>> {
+    let mut parts = divide(&mut triangles, |n| Bounds::of_points(&corners(n)), most);
+    parts.sort_by_key(|part| part.start);
+    let parts = parts.into_iter();
+    parts.map(|part| triangles[part].to_vec()).collect()
 }
 
 /// Triangles with their boxes.
@@ -172,7 +211,7 @@ mod tests {
     fn every_primitive_is_in_the_tree_once() {
         let sphere = (Bounds::of_points(&[[50.0; 3], [51.0; 3]]), 0);
         for most in [7, 100, 1 << 17] {
-            let tree = WideTree::build_in_parts((0..1600).collect(), &[sphere], corners, most);
+            let tree = WideTree::build_in_parts((0..1600).collect(), &[sphere], corners, most, 1);
             let (mut is_found, mut quadrics) = ([false; 1600], 0);
             let depth = check(&tree, 0, &mut is_found, &mut quadrics);
             assert_eq!((is_found, quadrics), ([true; 1600], 1));
@@ -183,6 +222,24 @@ mod tests {
                 tree.depth
             );
             assert_eq!(tree.bounds().upper, [51.0; 3]);
+        }
+    }
+
+    #[test]
+    fn the_tree_is_the_same_on_any_number_of_threads() {
+        let build = |threads| {
+            let tree = WideTree::build_in_parts((0..1600).collect(), &[], corners, 30, threads);
+            let nodes = tree.nodes.iter().map(|node| (node.planes, node.children));
+            let leaves = tree.leaves.iter().map(|leaf| leaf.triangles);
+            (
+                nodes.collect::<Vec<_>>(),
+                leaves.collect::<Vec<_>>(),
+                tree.depth,
+            )
+        };
+        let expected = build(1);
+        for threads in [2, 3, 16] {
+            assert_eq!(build(threads), expected, "{threads}");
         }
     }
 }
