@@ -10,7 +10,8 @@
 //! and instruction set therefore change the speed and never a bit of the result. Quadrics are intersected in `f64`.
 //!
 //! All unsafe code of the project lives here, in the modules `instruction_set` and `simd`: calling a function
-//! compiled for an instruction set that was detected at run time, and the loads and stores of its registers.
+//! compiled for an instruction set that was detected at run time, and the loads and stores of its registers; and in
+//! `huge_pages`, one call of the operating system.
 //!
 //! ```
 //! use steradian_kernel::{Accelerator, Geometry, HitBatch, InstructionSet, MISS, RayBatch};
@@ -36,6 +37,7 @@ mod batch;
 mod binary_tree;
 mod collapse;
 mod geometry;
+mod huge_pages;
 mod in_order;
 mod instruction_set;
 mod node;

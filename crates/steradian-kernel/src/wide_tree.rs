@@ -1,6 +1,7 @@
 //! The eight-wide tree, and how it is built: at once, or in parts.
 
 use crate::collapse::{Boxed, Item, grow};
+use crate::huge_pages;
 use crate::in_order::in_order;
 use crate::node::{Below, Bounds, Child, Leaf, Node, WIDTH};
 use crate::parts::divide;
@@ -11,8 +12,10 @@ const MOST_AT_ONCE: usize = 1 << 20;
 /// The triangles of a part: what is built at once is small beside a large mesh.
 const MOST_IN_A_PART: usize = 1 << 17;
 
-/// Memory that is never touched costs nothing.
-const ROOM_MARGIN: f64 = 1.25;
+/// For these triangles there is room for a node, and for a leaf: a fifth more than what meshes need, for memory that is never touched costs
+/// nothing.
+const TRIANGLES_A_NODE: usize = 23;
+const TRIANGLES_A_LEAF: usize = 6;
 
 /// The wide tree; node 0 is the root.
 #[derive(Clone, Default)]
@@ -51,6 +54,7 @@ impl WideTree {
         if triangles.is_empty() && quadrics.is_empty() {
             return tree;
         }
+        tree.make_room(triangles.len());
         tree.nodes.push(Node::EMPTY);
         let quadrics = quadrics.iter();
         let mut items: Vec<Boxed> = quadrics
@@ -76,21 +80,11 @@ impl WideTree {
         threads: usize,
         items: &mut Vec<Boxed>,
     ) {
-        let (count, mut built, mut has_room) = (triangles.len(), 0, false);
-        let work = |part: Vec<u32>| (part.len(), Self::of_part(&part, &corners));
-        in_order(
-            threads,
-            parts(triangles, &corners, most),
-            work,
-            |(length, part)| {
-                items.extend(self.append(part));
-                built += length;
-                if !has_room && built >= most {
-                    self.make_room(count as f64 / built as f64);
-                    has_room = true;
-                }
-            },
-        );
+        let work = |part: Vec<u32>| Self::of_part(&part, &corners);
+        let parts = parts(triangles, &corners, most);
+        in_order(threads, parts, work, |part| {
+            items.extend(self.append(part));
+        });
     }
 
     fn of_part(triangles: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Self {
@@ -136,11 +130,12 @@ impl WideTree {
         self.nodes.len() * size_of::<Node>() + self.leaves.len() * size_of::<Leaf>()
     }
 
-    /// Makes room for so many times what there is, and some more: a vector that grows holds everything twice.
-    fn make_room(&mut self, factor: f64) {
-        let more = |len: usize| (len as f64 * (factor * ROOM_MARGIN - 1.0)) as usize;
-        self.nodes.reserve_exact(more(self.nodes.len()));
-        self.leaves.reserve_exact(more(self.leaves.len()));
+    /// Makes room for so many triangles: a vector that grows holds everything twice.
+    fn make_room(&mut self, triangles: usize) {
+        self.nodes.reserve_exact(triangles / TRIANGLES_A_NODE + 1);
+        self.leaves.reserve_exact(triangles / TRIANGLES_A_LEAF + 1);
+        huge_pages::ask_for(self.nodes.spare_capacity_mut());
+        huge_pages::ask_for(self.leaves.spare_capacity_mut());
     }
 }
 
