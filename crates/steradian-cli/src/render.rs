@@ -28,6 +28,9 @@ const DEFAULT_SAMPLES: u64 = 64;
 /// legend.
 ///
 /// Every pixel is estimated in independent passes of equal effort, whose spread gives its standard error.
+///
+/// What mirrors, smooth glass and polish throw from point lamps, spots and directional lights on other surfaces is traced from the light,
+/// as many paths as pixels have samples. What they show of it to the camera is told as not sampled.
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {

@@ -154,6 +154,17 @@ impl Camera {
         })
     }
 
+    /// A film position and those that show the same: a panorama, which closes in itself, goes on beyond its borders.
+    pub(crate) fn repeats(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let [width, height] = self.resolution.map(f64::from);
+        let around = [-width, 0.0, width].map(|turn| [x + turn, y]);
+        let over = [-0.5 * width, 0.5 * width].map(|turn| [x + turn, -y]);
+        let under = over.map(|[x, y]| [x, 2.0 * height + y]);
+        let closes = self.projection == Projection::Panorama;
+        let places = around.into_iter().chain(over).chain(under);
+        places.filter(move |place| closes || *place == [x, y])
+    }
+
     /// False only if no part of a box is in the picture or within the reach of its filter. Nothing is known of projections other than the
     /// perspective one.
     pub fn may_see(&self, bounds: &Bounds) -> bool {

@@ -22,10 +22,11 @@
 //! A tolerance is judged tile by tile (32 × 32 pixels): the mean over its pixels of half-width / allowed half-width must not
 //! exceed 1, the allowed one being max(ε v, ε · 1 % of the image's mean, absolute tolerance). Half-widths are those of the weighted
 //! channels with their errors added as if fully correlated, which errs on the safe side. A pilot of 4 samples a pixel and pass, which is
-//! discarded, fixes n for each tile; there is no second run, since the mean over a thousand pixels is known well.
+//! discarded, fixes n for each tile, and the number of splats; there is no second run, since the mean over a thousand pixels is known well.
 
 mod exposure;
 mod filter;
+mod ledger;
 mod session;
 mod splat;
 mod tile;
@@ -78,7 +79,8 @@ pub trait PixelSampler: Sync {
         out: &mut [[f32; CHANNELS]],
     );
 
-    /// Whether there are samples, too, that choose their own places: as many a pass as the film has pixels, times the most samples of a pixel.
+    /// Whether there are samples, too, that choose their own places: as many a pass as pixels have
+    /// samples, or what a tolerance needs.
     fn has_splats(&self) -> bool {
         false
     }

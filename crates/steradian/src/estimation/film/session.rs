@@ -3,12 +3,11 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use super::exposure::PassImage;
-use super::splat::{BUNDLE, Bundle, Splatter};
-use super::tile::{BUFFER_SIDE, Job, Painter, RIM, SLICE, Task, Tile, tiles};
+use super::ledger::PassLedger;
+use super::tile::{Painter, Tile, tiles};
 use super::{CHANNELS, Exposure, Film, PixelSampler, TILE};
 use crate::estimation::cells::half_width_factor;
-use crate::estimation::crew::{Crew, Ledger, Standing};
+use crate::estimation::crew::{Crew, Standing};
 use crate::estimation::plan::LONGEST_REPLICATE;
 use crate::estimation::schedule::round_up;
 use crate::estimation::{EstimationError, Observer, Phase, Plan};
@@ -60,6 +59,14 @@ pub fn expose<S: PixelSampler>(
     }
 }
 
+/// What one pass takes.
+pub(super) struct Effort {
+    /// Samples of a pixel, by tile; none: only those that choose their own places.
+    pub(super) lengths: Vec<u64>,
+    /// Samples that choose their own places.
+    pub(super) splats: u32,
+}
+
 struct Session<'a, S: PixelSampler> {
     film: &'a Film,
     plan: &'a Plan,
@@ -74,8 +81,8 @@ impl<S: PixelSampler> Session<'_, S> {
     }
 
     fn fixed(&mut self, samples: u64) -> Result<Exposure, EstimationError> {
-        let lengths = vec![samples.div_ceil(self.passes()); self.tiles.len()];
-        let (mut exposure, flow) = self.expose(Phase::Final, &lengths, None)?;
+        let effort = self.evenly(samples.div_ceil(self.passes()));
+        let (mut exposure, flow) = self.expose(Phase::Final, &effort, None)?;
         exposure.conclude(flow.is_continue());
         Ok(exposure)
     }
@@ -84,8 +91,7 @@ impl<S: PixelSampler> Session<'_, S> {
         let mut trial = 1;
         loop {
             let begin = self.crew.elapsed();
-            let (mut exposure, flow) =
-                self.expose(Phase::Pilot, &vec![trial; self.tiles.len()], None)?;
+            let (mut exposure, flow) = self.expose(Phase::Pilot, &self.evenly(trial), None)?;
             let cost = (self.crew.elapsed() - begin).as_secs_f64() / trial as f64;
             if flow.is_break() {
                 exposure.conclude(false);
@@ -101,35 +107,81 @@ impl<S: PixelSampler> Session<'_, S> {
     }
 
     fn until_tolerance(&mut self) -> Result<Exposure, EstimationError> {
-        let pilot_lengths = vec![PILOT; self.tiles.len()];
-        let (mut pilot, flow) = self.expose(Phase::Pilot, &pilot_lengths, None)?;
+        let effort = self.evenly(PILOT);
+        let (mut pilot, flow) = self.expose(Phase::Pilot, &effort, None)?;
         if flow.is_break() {
             pilot.conclude(false);
             return Ok(pilot);
         }
-        let excess = self.excess(&pilot);
-        let longest = (self.plan.max_samples / self.passes()).clamp(1, LONGEST_REPLICATE);
-        let length =
-            |excess: &f64| round_up((PILOT as f64 * (SAFETY * excess).powi(2)).ceil() as u64);
-        let lengths: Vec<_> = excess
-            .iter()
-            .map(|excess| length(excess).clamp(1, longest))
-            .collect();
+        let excess = self.excess(&pilot, &pilot);
+        let of_splats = self.excess_of_splats(&pilot, effort)?;
+        let effort = self.effort(&excess, &of_splats);
         let worst = excess
             .iter()
             .fold(0.0, |worst: f64, &excess| worst.max(excess));
         let (mut exposure, flow) = self.expose(
             Phase::Final,
-            &lengths,
+            &effort,
             self.plan.stop.rel_error.map(|e| e * worst),
         )?;
-        let met = self.excess(&exposure).iter().all(|&excess| excess <= 1.0);
+        let met = self
+            .excess(&exposure, &exposure)
+            .iter()
+            .all(|&excess| excess <= 1.0);
         exposure.conclude(flow.is_continue() && met);
         Ok(exposure)
     }
 
-    /// Mean over the pixels of each tile of half-width / tolerance. Tiles that are all margin take that of the nearest pixels.
-    fn excess(&self, exposure: &Exposure) -> Vec<f64> {
+    /// So many samples of every pixel in a pass, and as many that choose their own places.
+    fn evenly(&self, length: u64) -> Effort {
+        Effort {
+            lengths: vec![length; self.tiles.len()],
+            splats: self.splats(length as f64),
+        }
+    }
+
+    /// Samples that choose their own places, where there are any, by their number for a pixel of the film.
+    fn splats(&self, per_pixel: f64) -> u32 {
+        let pixels = f64::from(self.film.width) * f64::from(self.film.height);
+        let most = if self.has_splats { u32::MAX } else { 0 };
+        (pixels * per_pixel).min(f64::from(most)) as u32
+    }
+
+    /// The part of a pilot's excess that comes of samples that choose their own places: its passes again without the others.
+    fn excess_of_splats(
+        &mut self,
+        pilot: &Exposure,
+        effort: Effort,
+    ) -> Result<Vec<f64>, EstimationError> {
+        if effort.splats == 0 {
+            return Ok(vec![0.0; self.tiles.len()]);
+        }
+        let lengths = Vec::new();
+        let (splats, _) = self.expose(Phase::Pilot, &Effort { lengths, ..effort }, None)?;
+        Ok(self.excess(pilot, &splats))
+    }
+
+    /// What should meet the tolerance by what a pilot found: samples that choose their own places so many that they use up at most half of
+    /// the variance that a tile may have, and of the others in each tile what uses up the rest.
+    fn effort(&self, excess: &[f64], of_splats: &[f64]) -> Effort {
+        let longest = (self.plan.max_samples / self.passes()).clamp(1, LONGEST_REPLICATE);
+        let needed = |excess: f64| PILOT as f64 * (SAFETY * excess).powi(2);
+        let most = of_splats.iter().copied().fold(0.0, f64::max);
+        let per_pixel = (2.0 * needed(most)).clamp(1.0, longest as f64);
+        let length = |(&excess, &of_splats): (&f64, &f64)| {
+            let needs = needed(excess) - needed(of_splats);
+            let left = (1.0 - needed(of_splats) / per_pixel).max(0.5);
+            round_up((needs.max(0.0) / left).ceil() as u64).clamp(1, longest)
+        };
+        Effort {
+            lengths: excess.iter().zip(of_splats).map(length).collect(),
+            splats: self.splats(per_pixel),
+        }
+    }
+
+    /// Mean over the pixels of each tile of half-width / tolerance, with the errors of `uncertain`. Tiles that are all margin take that of
+    /// the nearest pixels.
+    fn excess(&self, exposure: &Exposure, uncertain: &Exposure) -> Vec<f64> {
         let scalar = |channels: &[f64; CHANNELS]| {
             channels
                 .iter()
@@ -141,7 +193,7 @@ impl<S: PixelSampler> Session<'_, S> {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let factor = half_width_factor(self.plan);
         let weights = self.film.weights.map(f64::abs);
-        let errors = exposure
+        let errors = uncertain
             .std_errors()
             .map(|errors| errors.iter().zip(weights).map(|(e, w)| e * w).sum::<f64>());
         let ratio = |(value, error): (&f64, f64)| {
@@ -175,39 +227,28 @@ impl<S: PixelSampler> Session<'_, S> {
         rows.map(row).sum::<f64>() / pixels
     }
 
-    /// Samples of a pass that choose their own places.
-    fn splats(&self, lengths: &[u64]) -> u32 {
-        if !self.has_splats {
-            return 0;
-        }
-        let longest = lengths.iter().copied().max().unwrap_or(0);
-        let pixels = u64::from(self.film.width) * u64::from(self.film.height);
-        u32::try_from(pixels.saturating_mul(longest)).unwrap_or(u32::MAX)
-    }
-
     /// Runs every pass that this shard owns.
     fn expose(
         &mut self,
         phase: Phase,
-        lengths: &[u64],
+        effort: &Effort,
         relative_error: Option<f64>,
     ) -> Result<(Exposure, ControlFlow<()>), EstimationError> {
         let mut exposure = Exposure::new(self.film, self.plan.replicates);
         let owned: Vec<_> = (0..self.plan.replicates)
             .filter(|&pass| self.plan.owns(pass as usize))
             .collect();
-        let a_pass: u64 = self
-            .tiles
+        let tiles = &self.tiles[..effort.lengths.len()];
+        let a_pass: u64 = tiles
             .iter()
-            .zip(lengths)
+            .zip(&effort.lengths)
             .map(|(tile, length)| tile.pixels() * length)
             .sum();
-        let splats = self.splats(lengths);
         let mut standing = Standing {
             phase,
             begin: self.crew.elapsed(),
             samples: 0,
-            planned: (a_pass + u64::from(splats)) * owned.len() as u64,
+            planned: (a_pass + u64::from(effort.splats)) * owned.len() as u64,
             relative_error,
         };
         for pass in owned {
@@ -215,8 +256,7 @@ impl<S: PixelSampler> Session<'_, S> {
                 combine(mix_64(self.plan.seed), u64::from(pass)),
                 phase.key(),
             );
-            let counts = (lengths, splats);
-            let mut image = PassLedger::new(self.film, &self.tiles, counts, key, &mut standing);
+            let mut image = PassLedger::new(self.film, tiles, effort, key, &mut standing);
             if self.crew.run(&mut image)?.is_break() {
                 return Ok((exposure, ControlFlow::Break(())));
             }
@@ -228,155 +268,6 @@ impl<S: PixelSampler> Session<'_, S> {
             }
         }
         Ok((exposure, ControlFlow::Continue(())))
-    }
-}
-
-/// Hands out the tiles of one pass in slices and adds up what they bring.
-struct PassLedger<'a> {
-    film: &'a Film,
-    tiles: &'a [Tile],
-    lengths: &'a [u64],
-    key: u64,
-    standing: &'a mut Standing,
-    sums: Vec<[f64; CHANNELS]>,
-    number: usize,
-    done: u64,
-    merged: usize,
-    spare: Vec<Vec<[f32; CHANNELS]>>,
-    splatter: Splatter,
-    /// How many samples choose their own places, are issued, and are merged.
-    splats: [u32; 3],
-}
-
-impl<'a> PassLedger<'a> {
-    fn new(
-        film: &'a Film,
-        tiles: &'a [Tile],
-        (lengths, splats): (&'a [u64], u32),
-        key: u64,
-        standing: &'a mut Standing,
-    ) -> Self {
-        let sums = vec![[0.0; CHANNELS]; film.width as usize * film.height as usize];
-        Self {
-            film,
-            tiles,
-            lengths,
-            key,
-            standing,
-            sums,
-            number: 0,
-            done: 0,
-            merged: 0,
-            spare: Vec::new(),
-            splatter: Splatter::new(film),
-            splats: [splats, 0, 0],
-        }
-    }
-
-    fn into_image(self) -> PassImage {
-        self.sums
-            .into_iter()
-            .map(|pixel| pixel.map(|value| value as f32))
-            .collect()
-    }
-
-    /// Adds the part of a tile's buffer that lies on the image.
-    fn add(&mut self, job: &Job) {
-        let scale = 1.0 / self.lengths[job.number] as f64;
-        let side = BUFFER_SIDE as i32;
-        let (left, top) = (job.tile.left - RIM as i32, job.tile.top - RIM as i32);
-        let (width, height) = (self.film.width as i32, self.film.height as i32);
-        let columns = left.max(0)..(left + side).min(width);
-        for row in top.max(0)..(top + side).min(height) {
-            let from = ((row - top) * side + columns.start - left) as usize;
-            let to = (row * width + columns.start) as usize;
-            for (pixel, sum) in self.sums[to..][..columns.len()]
-                .iter_mut()
-                .zip(&job.sums[from..])
-            {
-                *pixel =
-                    std::array::from_fn(|channel| pixel[channel] + scale * f64::from(sum[channel]));
-            }
-        }
-    }
-}
-
-impl PassLedger<'_> {
-    fn issue_tile(&mut self) -> Option<Job> {
-        let tile = *self.tiles.get(self.number)?;
-        let count = (self.lengths[self.number] - self.done).min(u64::from(SLICE)) as u32;
-        let sums = self.spare.pop().unwrap_or_default();
-        let job = Job {
-            number: self.number,
-            tile,
-            first: self.done as u32,
-            count,
-            key: self.key,
-            sums,
-            fault: None,
-        };
-        self.done += u64::from(count);
-        if self.done == self.lengths[self.number] {
-            (self.number, self.done) = (self.number + 1, 0);
-        }
-        Some(job)
-    }
-
-    fn issue_splats(&mut self) -> Option<Bundle> {
-        let [count, issued, _] = &mut self.splats;
-        let indices = *issued..issued.saturating_add(BUNDLE).min(*count);
-        *issued = indices.end;
-        (!indices.is_empty()).then(|| Bundle {
-            indices,
-            key: combine(self.film.key, self.key),
-            splats: Vec::new(),
-        })
-    }
-
-    fn merge_tile(&mut self, job: Job) -> Result<(), EstimationError> {
-        if let Some(([x, y], count)) = job.fault {
-            return Err(EstimationError::NonFinitePixel { x, y, count });
-        }
-        self.add(&job);
-        self.standing.samples += job.samples();
-        self.merged += usize::from(u64::from(job.first + job.count) == self.lengths[job.number]);
-        self.spare.push(job.sums);
-        Ok(())
-    }
-
-    fn merge_splats(&mut self, bundle: &Bundle) -> Result<(), EstimationError> {
-        bundle.check()?;
-        let scale = 1.0 / f64::from(self.splats[0]);
-        for splat in &bundle.splats {
-            self.splatter.add(splat, scale, &mut self.sums);
-        }
-        self.standing.samples += bundle.indices.len() as u64;
-        self.splats[2] = bundle.indices.end;
-        Ok(())
-    }
-}
-
-impl Ledger for &mut PassLedger<'_> {
-    type Job = Task;
-
-    fn issue(&mut self) -> Option<Task> {
-        let tile = self.issue_tile().map(Task::Tile);
-        tile.or_else(|| self.issue_splats().map(Task::Splats))
-    }
-
-    fn merge(&mut self, task: Task) -> Result<(), EstimationError> {
-        match task {
-            Task::Tile(job) => self.merge_tile(job),
-            Task::Splats(bundle) => self.merge_splats(&bundle),
-        }
-    }
-
-    fn is_complete(&self) -> bool {
-        self.merged == self.tiles.len() && self.splats[2] == self.splats[0]
-    }
-
-    fn standing(&self) -> Standing {
-        Standing { ..*self.standing }
     }
 }
 

@@ -384,3 +384,20 @@ fn boxes_beside_and_behind_are_not_seen() {
         assert_eq!(camera.may_see(&bounds), seen, "{bounds:?}");
     }
 }
+
+/// Beyond its borders a panorama shows the other side, and beyond the poles what is behind them.
+#[test]
+fn what_a_panorama_repeats_looks_the_same_way() {
+    let camera = camera(Projection::Panorama, SIZE);
+    let film = [3.0, 1.5];
+    let (_, direction) = camera.ray(film, [0.0; 2]).unwrap();
+    let repeats: Vec<_> = camera.repeats(film).collect();
+    assert_eq!(repeats.len(), 7);
+    for place in repeats {
+        let (_, other) = camera.ray(place, [0.0; 2]).unwrap();
+        let off = (other.to_vector() - direction.to_vector()).length();
+        assert!(off < 1e-12, "{place:?}: {off}");
+    }
+    let flat = super::tests::camera(perspective(90.0), SIZE);
+    assert_eq!(flat.repeats(film).collect::<Vec<_>>(), [film]);
+}

@@ -7,6 +7,7 @@
 //! The normal of a model may depend on where it is seen from, and so does the side whose model counts: both are those that a path from
 //! d_e finds, so that light goes the same ways in either direction.
 
+use std::borrow::Cow;
 use std::f32::consts::FRAC_1_PI;
 
 use glam::Vec3;
@@ -21,7 +22,6 @@ use crate::transport::interaction::Hit;
 use crate::transport::scatter::to_world;
 use crate::transport::scattering::Encounter;
 use crate::transport::tables::{Lanes4, Model, Side, Tables};
-use std::borrow::Cow;
 
 /// Light that has met a surface.
 pub(super) struct Arrival<'a> {
@@ -105,26 +105,19 @@ impl<'a> Arrival<'a> {
     }
 
     fn scatter_by_model(&self, u: [f32; 2]) -> Option<Departure> {
-        let light = Vec3::from_array(self.hit.viewer);
-        let here = self.seen_from(light)?;
+        let here = self.seen_from(Vec3::from_array(self.hit.viewer))?;
         let scatter = here.brdf.sample(here.viewer, u.map(f64::from))?;
         let way = here.frame.to_world(scatter.wi()).to_array();
         let direction = Vec3::from_array(way.map(|x| x as f32));
         let there = self.seen_from(direction)?;
-        let beyond = there.is_beyond;
         let weight = match scatter {
             Scatter::Finite { pdf, .. } => there.intensity(self)?.map(|lane| lane / pdf as f32),
             Scatter::Specular { wi, reflectance } => {
-                if there.normal != here.normal {
-                    return None;
-                }
-                let turned = (here.viewer.z() * there.cos_leaving).abs();
-                let true_ones = (self.cos_arriving() * wi.z()).abs();
-                let scale = here.brdf.radiance_scale(here.viewer, wi);
-                (reflectance * (turned / (true_ones * scale))).to_lanes()
+                let factor = self.specular_factor(&here, &there, wi)?;
+                (reflectance * factor).to_lanes()
             }
         };
-        let media = self.side.media.filter(|_| beyond);
+        let media = self.side.media.filter(|_| there.is_beyond);
         Some(Departure {
             direction,
             weight,
@@ -133,20 +126,38 @@ impl<'a> Arrival<'a> {
         })
     }
 
+    /// What the factor of radiance is multiplied with to be that of flux; `None` if light is not sent back the same way.
+    fn specular_factor(&self, here: &Seen<'_>, there: &Seen<'_>, wi: Direction) -> Option<f64> {
+        let turned = (here.viewer.z() * there.cos_leaving).abs();
+        let own = (self.cos_arriving() * wi.z()).abs();
+        let scale = here.brdf.radiance_scale(here.viewer, wi);
+        (there.normal == here.normal).then_some(turned / (own * scale))
+    }
+
+    /// What a path from a viewer in this direction would meet.
+    fn encounter_from(&self, direction: Vec3, is_beyond: bool) -> Encounter {
+        let seen = Encounter::seen(self.hit, self.site);
+        let place = self.hit.place;
+        Encounter {
+            viewer: direction.into(),
+            side: seen.side ^ u32::from(is_beyond),
+            place: match is_beyond {
+                true => Place {
+                    normal: place.normal.map(|axis| -axis),
+                    ..place
+                },
+                false => place,
+            },
+            ..seen
+        }
+    }
+
     /// The model as it is for a viewer in this direction.
     fn seen_from(&self, direction: Vec3) -> Option<Seen<'a>> {
         let facing = Vec3::from_array(self.hit.place.normal);
         let cos_leaving = direction.dot(facing);
         let is_beyond = cos_leaving < 0.0;
-        let mut encounter = Encounter::seen(self.hit, self.site);
-        encounter.viewer = direction.into();
-        if is_beyond {
-            encounter.side ^= 1;
-            encounter.place = Place {
-                normal: (-facing).into(),
-                ..self.hit.place
-            };
-        }
+        let encounter = self.encounter_from(direction, is_beyond);
         let side = &self.tables.sides[encounter.side as usize];
         let brdf = self.tables.brdf(side, &self.site, self.wavelengths)?;
         let normal = self.tables.shading_normal(&encounter)?;

@@ -23,11 +23,13 @@
 //! normal. Surfaces that let light pass straight are no meetings, as for paths from the camera, and `max_depth` counts the same segments.
 //! V is bounded by the distance of what is in view from the eye, but for finer normals at grazing light.
 //!
-//! Source: E. Veach, *Robust Monte Carlo methods for light transport simulation* (1997), §4.5 (particle tracing), §5.2 and §5.3 (adjoint
-//! models).
+//! Source: P. Dutré, E. Lafortune & Y. Willems, *Monte Carlo light tracing with direct computation of pixel intensities* (Compugraphics
+//! 1993); E. Veach, *Robust Monte Carlo methods for light transport simulation* (1997), §5.2 and §5.3 (adjoint models).
 
 mod aims;
 mod arrival;
+mod ball;
+mod bundle;
 mod connections;
 mod particles;
 
@@ -231,13 +233,25 @@ impl LightTracer<'_> {
         let origin = self.tables.scene.surfaces().origin();
         let point = origin + Vector::from(place.point.map(f64::from));
         let lens = warp::disc(lens[0], lens[1]).map(f64::from);
-        let Some(sight) = self
-            .camera
-            .sight(point, lens)
-            .filter(|sight| self.is_on_film(sight))
-        else {
+        let Some(sight) = self.camera.sight(point, lens) else {
             return;
         };
+        let places = self.camera.repeats(sight.film);
+        let places: Vec<_> = places.filter(|place| self.is_on_film(place)).collect();
+        if !places.is_empty() {
+            self.draw(particle, arrival, (&sight, &places), connections);
+        }
+    }
+
+    /// Draws the line of sight for each place on the film that shows it.
+    fn draw(
+        &self,
+        particle: &Particle,
+        arrival: &Arrival<'_>,
+        (sight, places): (&Sight, &[[f64; 2]]),
+        connections: &mut Connections,
+    ) {
+        let place = &arrival.hit.place;
         let eye = Vec3::from_array(self.tables.scene.surfaces().to_kernel(sight.from));
         let direction = (eye - Vec3::from_array(place.point)).normalize_or_zero();
         let Some(seen) = arrival.towards(direction) else {
@@ -248,20 +262,20 @@ impl LightTracer<'_> {
             let flux = particle.flux[lane] * particle.throughput[lane];
             flux * seen[lane] * sight.pixels_per_area as f32
         };
-        connections.push(Connection {
-            ray: (start.into(), (eye - start).into()),
-            place: sight.film,
-            value: std::array::from_fn(value),
-            slot: particle.identity.0,
-        });
+        for &place in places {
+            connections.push(Connection {
+                ray: (start.into(), (eye - start).into()),
+                place,
+                value: std::array::from_fn(value),
+                slot: particle.identity.0,
+            });
+        }
     }
 
     /// Whether a place reaches a pixel.
-    fn is_on_film(&self, sight: &Sight) -> bool {
-        let pairs = sight.film.into_iter().zip(self.camera.resolution);
-        pairs
-            .into_iter()
-            .all(|(place, size)| (-2.0..=f64::from(size) + 2.0).contains(&place))
+    fn is_on_film(&self, place: &[f64; 2]) -> bool {
+        let mut pairs = place.iter().zip(self.camera.resolution);
+        pairs.all(|(place, size)| (-2.0..=f64::from(size) + 2.0).contains(place))
     }
 
     fn settle(&self, batch: &mut Batch, out: &mut Vec<Splat>) {

@@ -1,0 +1,141 @@
+//! The rays from a light without extent to a ball.
+
+use std::f64::consts::{PI, TAU};
+
+use super::ball::Ball;
+use crate::geometry::{Direction, Frame, Point, Vector};
+use crate::light::{Beam, Kind, Light, Outlet};
+use crate::sampling::warp;
+use crate::shape::Surfaces;
+
+/// Rays that are drawn evenly by solid angle or by area.
+pub(super) enum Bundle {
+    Cone(Cone),
+    Shaft(Shaft),
+}
+
+/// From a point in kernel coordinates.
+#[derive(Clone, Copy)]
+pub(super) struct Cone {
+    apex: [f32; 3],
+    frame: Frame,
+    one_minus_cos: f64,
+}
+
+/// Through a disc, along the normal of its frame, in kernel coordinates.
+pub(super) struct Shaft {
+    middle: Vector,
+    frame: Frame,
+    radius: f64,
+}
+
+impl Bundle {
+    /// `None` where the light sends nothing to the ball, and for parallel light without one.
+    pub fn new(surfaces: &Surfaces, light: &Light, ball: Option<&Ball>) -> Option<Self> {
+        let from = |position: Point, start: Point| {
+            let apex = surfaces.to_kernel(start);
+            Cone::around(apex, ball.map(|ball| (ball.center - position, ball.radius)))
+        };
+        match &light.kind {
+            Kind::Point(light) => Some(Self::Cone(from(light.position, light.position))),
+            Kind::Spot(light) => {
+                let cone = from(light.position, light.position);
+                cone.within(light.axis, cutoff(light.beam)).map(Self::Cone)
+            }
+            Kind::Luminaire(light) => match light.outlet {
+                Outlet::Point { end } => Some(Self::Cone(from(light.position, end))),
+                Outlet::Surface { .. } => None,
+            },
+            Kind::Directional { direction, .. } => {
+                Some(Self::Shaft(Shaft::new(surfaces, *direction, ball?)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Solid angle or area.
+    pub fn measure(&self) -> f64 {
+        match self {
+            Self::Cone(cone) => TAU * cone.one_minus_cos,
+            Self::Shaft(shaft) => PI * shaft.radius * shaft.radius,
+        }
+    }
+
+    /// Start and direction of a ray.
+    pub fn sample(&self, [u, v]: [f32; 2]) -> ([f32; 3], [f32; 3]) {
+        match self {
+            Self::Cone(cone) => {
+                let local = warp::cone(u, v, cone.one_minus_cos as f32);
+                let local = Vector::from(local.map(f64::from));
+                (cone.apex, single(cone.frame.vector_to_world(local)))
+            }
+            Self::Shaft(shaft) => {
+                let [x, y] = warp::disc(u, v).map(f64::from);
+                let offset = Vector::new(x, y, 0.0) * shaft.radius;
+                let start = shaft.middle + shaft.frame.vector_to_world(offset);
+                (single(start), single(shaft.frame.normal().to_vector()))
+            }
+        }
+    }
+}
+
+impl Cone {
+    /// Around a ball at this place from the apex; of all directions from within it, or without one.
+    fn around(apex: [f32; 3], ball: Option<(Vector, f64)>) -> Self {
+        let outside = ball.filter(|(axis, radius)| axis.length() > *radius);
+        let cone = outside.and_then(|(axis, radius)| {
+            let sine = radius / axis.length();
+            let one_minus_cos = sine * sine / (1.0 + (1.0 - sine * sine).sqrt());
+            let axis = Direction::new(axis).ok()?;
+            Some((Frame::from_normal(axis), one_minus_cos))
+        });
+        let (frame, one_minus_cos) = cone.unwrap_or((Frame::from_normal(Direction::Z), 2.0));
+        Self {
+            apex,
+            frame,
+            one_minus_cos,
+        }
+    }
+
+    /// The smaller of this cone and a beam; `None` if they do not meet.
+    fn within(self, axis: Direction, cos_cutoff: f64) -> Option<Self> {
+        let half_angles = libm::acos(1.0 - self.one_minus_cos) + libm::acos(cos_cutoff);
+        let between = libm::acos(self.frame.normal().dot(axis).clamp(-1.0, 1.0));
+        let beam = Self {
+            frame: Frame::from_normal(axis),
+            one_minus_cos: 1.0 - cos_cutoff,
+            ..self
+        };
+        let is_narrower = beam.one_minus_cos < self.one_minus_cos;
+        (between <= half_angles + ROUNDING).then_some(if is_narrower { beam } else { self })
+    }
+}
+
+/// Of angles.
+const ROUNDING: f64 = 1e-6;
+
+impl Shaft {
+    /// Through a ball, from before everything that may stop it.
+    fn new(surfaces: &Surfaces, direction: Direction, ball: &Ball) -> Self {
+        let forms = surfaces.shapes().iter().map(|shape| &shape.form);
+        let reach = forms.map(|form| ball.upstream(form, direction));
+        let reach = reach.fold(ball.radius, f64::max) + surfaces.clearance();
+        Self {
+            middle: ball.center - surfaces.origin() - direction * (reach + ball.radius),
+            frame: Frame::from_normal(direction),
+            radius: ball.radius,
+        }
+    }
+}
+
+fn cutoff(beam: Beam) -> f64 {
+    match beam {
+        Beam::Uniform { cos_cutoff }
+        | Beam::CosinePower { cos_cutoff, .. }
+        | Beam::Smooth { cos_cutoff, .. } => cos_cutoff,
+    }
+}
+
+fn single(vector: Vector) -> [f32; 3] {
+    vector.to_array().map(|x| x as f32)
+}
