@@ -141,7 +141,7 @@ fn a_mirror_throws_parallel_light_back() {
 /// Normals (.6, 0, .8) in the axes of a rectangle, the first along its first edge.
 fn slanted(material: MaterialDescription) -> MaterialDescription {
     let texel = vec![[0.8, 0.5, 0.9, 1.0]];
-    let bitmap = Bitmap::new(1, 1, Texels::Float(texel)).unwrap();
+    let bitmap = Bitmap::new(1, 1, Texels::Float(texel)).expect("a picture");
     let picture = Texture {
         pattern: Pattern::Bitmap(Arc::new(bitmap)),
         placement: Placement::default(),
