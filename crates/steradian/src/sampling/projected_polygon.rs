@@ -36,6 +36,10 @@
 use crate::geometry::{Direction, Vector};
 use crate::quantity::ProjectedSolidAngle;
 
+mod table;
+
+use table::Table;
+
 /// A convex polygon as seen by a receiver at the origin whose normal is z.
 #[derive(Clone, Debug)]
 pub struct ProjectedPolygon {
@@ -62,6 +66,17 @@ impl ProjectedPolygon {
             polygon.push_between(&edges);
         }
         (polygon.area > 0.0).then_some(polygon)
+    }
+
+    /// The same, prepared for many samples: areas are tabulated, so that a sample need not iterate, where that moves no sample by more than 2⁻²⁴ of
+    /// the polygon. It takes as long as some dozens of samples.
+    #[must_use]
+    pub fn tabulated(mut self) -> Self {
+        for sector in &mut self.sectors {
+            let inner = sector.inner.as_ref();
+            sector.table = inner.and_then(|inner| Table::new(sector, inner));
+        }
+        self
     }
 
     /// Ω.
@@ -155,6 +170,7 @@ impl ProjectedPolygon {
             outer,
             inner,
             end: 0.0,
+            table: None,
         };
         let area = sector.area_up_to(to);
         if area > 0.0 {
@@ -166,7 +182,7 @@ impl ProjectedPolygon {
 }
 
 /// A part of the polygon between two directions of the disc, less than half a turn apart.
-#[derive(Copy, Clone, Debug)]
+#[derive(Clone, Debug)]
 struct Sector {
     from: [f64; 2],
     to: [f64; 2],
@@ -174,6 +190,7 @@ struct Sector {
     inner: Option<Arc>,
     /// Sum of the areas up to and including this one.
     end: f64,
+    table: Option<Table>,
 }
 
 impl Sector {
@@ -183,24 +200,33 @@ impl Sector {
         self.outer.area(self.from, e) - inner
     }
 
-    /// Where A(e) is `wanted`, out of `area`.
+    /// A place along the chord from e₀ (0) to e₁ (1).
+    fn at(&self, x: f64) -> [f64; 2] {
+        [0, 1].map(|k| self.from[k] + x * (self.to[k] - self.from[k]))
+    }
+
+    /// dA/dx along the chord.
+    fn density(&self, inner: &Arc, e: [f64; 2]) -> f64 {
+        let turn = cross(self.from, self.to);
+        0.5 * turn * (self.outer.at(e).0 - inner.at(e).0) / dot(e, e)
+    }
+
+    /// Where A(e) is `wanted`, out of `area`: e of any length.
     fn direction_at(&self, wanted: f64, area: f64) -> [f64; 2] {
-        match &self.inner {
-            None => self
+        match (&self.inner, &self.table) {
+            (None, _) => self
                 .outer
                 .along(self.from, 2.0 * wanted / self.outer.normal[2].abs()),
-            Some(inner) => self.solve(inner, wanted, area),
+            (Some(_), Some(table)) => self.at(table.inverse(wanted)),
+            (Some(inner), None) => self.solve(inner, wanted, area),
         }
     }
 
-    /// Newton's method on the chord e₀ + x (e₁ − e₀), within a bracket; it starts where a density that is linear along the chord
+    /// Newton's method along the chord, within a bracket; it starts where a density that is linear along the chord
     /// would have it.
     fn solve(&self, inner: &Arc, wanted: f64, area: f64) -> [f64; 2] {
-        let turn = cross(self.from, self.to);
-        let at = |x: f64| [0, 1].map(|k| self.from[k] + x * (self.to[k] - self.from[k]));
-        let density = |e: [f64; 2]| 0.5 * turn * (self.outer.at(e).0 - inner.at(e).0) / dot(e, e);
         let share = wanted / area;
-        let [p, q] = [self.from, self.to].map(|e| density(e).max(0.0));
+        let [p, q] = [self.from, self.to].map(|e| self.density(inner, e).max(0.0));
         let root = (p * p + share * (q * q - p * p)).max(0.0).sqrt();
         let mut x = if p + root > 0.0 {
             share * (p + q) / (p + root)
@@ -209,10 +235,10 @@ impl Sector {
         };
         let [mut low, mut high] = [0.0, 1.0];
         for _ in 0..MOST_STEPS {
-            let e = at(x);
+            let e = self.at(x);
             let excess = self.area_up_to(e) - wanted;
             (low, high) = if excess < 0.0 { (x, high) } else { (low, x) };
-            let step = excess / density(e);
+            let step = excess / self.density(inner, e);
             let next = x - step;
             let next = if next > low && next < high {
                 next
@@ -225,17 +251,17 @@ impl Sector {
                 break;
             }
         }
-        unit(at(x))
+        self.at(x)
     }
 
-    /// The direction of azimuth `e` that divides the squared radius as v.
+    /// The direction of azimuth `e`, of any length, that divides the squared radius as v.
     fn within(&self, e: [f64; 2], v: f64) -> Direction {
+        let e = if dot(e, e) > 0.0 { e } else { self.to };
         let (outer, outer_height) = self.outer.at(e);
         let (inner, inner_height) = self.inner.map_or((0.0, 1.0), |arc| arc.at(e));
-        let r = (inner + v * (outer - inner)).sqrt();
+        let r = ((inner + v * (outer - inner)) / dot(e, e)).sqrt();
         let z = (inner_height + v * (outer_height - inner_height)).sqrt();
-        let direction = Vector::new(r * e[0], r * e[1], z);
-        Direction::from_unit(direction / direction.length())
+        Direction::from_unit(Vector::new(r * e[0], r * e[1], z))
     }
 }
 
@@ -267,7 +293,8 @@ impl Arc {
     fn at(&self, e: [f64; 2]) -> (f64, f64) {
         let (height, slope) = (self.normal[2] * self.normal[2], self.slope(e));
         let (height, slope) = (height * dot(e, e), slope * slope);
-        (height / (height + slope), slope / (height + slope))
+        let scale = 1.0 / (height + slope);
+        (height * scale, slope * scale)
     }
 
     /// The direction of the disc where the edge has come by an angle from the direction `from`.
@@ -415,6 +442,34 @@ mod tests {
             .iter()
             .map(|corners| corners.map(Vector::from).to_vec())
             .collect()
+    }
+
+    /// An inverse that is 2⁻²⁴ of a sector off half-way between two knots is no more than a third further off elsewhere: |H − A| is
+    /// s²(1 − s)² ρ‴ h⁴/24 to leading order, and what the next order adds is left to the margin.
+    #[test]
+    fn tables_move_no_sample_by_more_than_they_say() {
+        let tolerance = 4.0 / 3.0 / f64::from(1 << 24);
+        for corners in extremes() {
+            let polygon = ProjectedPolygon::new(&corners).unwrap().tabulated();
+            for u in independent(5, 4_096) {
+                let found = polygon.inverse(polygon.sample(u));
+                assert!(
+                    (found[0] - u[0]).abs() < tolerance + 1e-15 / polygon.area,
+                    "{corners:?} {u:?} {found:?}"
+                );
+            }
+        }
+    }
+
+    /// A square overhead to the side, as lamps of rooms are, and one that fills a quarter of the view.
+    #[test]
+    fn lamps_of_rooms_have_tables() {
+        for offset in [0.6, 1.5, 4.0] {
+            let corner = |[x, y]: [f64; 2]| Vector::new(x + offset, y + 0.2, 2.0);
+            let corners = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.4], [0.0, 0.4]].map(corner);
+            let polygon = ProjectedPolygon::new(&corners).unwrap().tabulated();
+            assert!(polygon.sectors.iter().all(|sector| sector.table.is_some()));
+        }
     }
 
     fn contains(corners: &[Vector], d: Vector) -> bool {

@@ -109,6 +109,19 @@ impl Aim {
         aim
     }
 
+    /// The same, made ready for many samples.
+    pub fn prepared(mut self) -> Self {
+        let prepare = |target: Target| match target.sampler {
+            Sampler::Projected(polygon, plane) => Target {
+                sampler: Sampler::Projected(polygon.tabulated(), plane),
+                ..target
+            },
+            _ => target,
+        };
+        self.targets = self.targets.into_iter().map(prepare).collect();
+        self
+    }
+
     /// What every sample contributes per unit of radiance; 0 if nothing is seen of the emitter.
     pub fn weight(&self) -> f64 {
         self.total

@@ -247,6 +247,26 @@ impl Vertices {
         self.light_v.push(light[1]);
     }
 
+    /// Adds consecutive samples at one place, the first of this identity, without numbers for a light.
+    pub fn repeat(
+        &mut self,
+        place: &Place,
+        response: [f32; MAX_LANES],
+        (slot, key, index): (u32, u64, u32),
+        count: u32,
+    ) {
+        let length = self.len() + count as usize;
+        let ([x, y, z], [nx, ny, nz], [a, b, c, d]) = (place.point, place.normal, response);
+        let row = [x, y, z, nx, ny, nz, place.clearance, 0.0, 0.0, a, b, c, d];
+        for (column, value) in self.columns_mut().into_iter().zip(row) {
+            column.resize(length, value);
+        }
+        let identity = &mut self.identity;
+        identity.slot.extend(slot..slot + count);
+        identity.key.resize(length, key);
+        identity.index.extend(index..index + count);
+    }
+
     /// Room for more vertices.
     pub fn extend(&mut self, more: usize) -> Room<'_> {
         let (from, count) = (self.len(), self.len() + more);

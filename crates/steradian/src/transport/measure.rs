@@ -48,8 +48,14 @@ pub(super) struct Meters<'a> {
 /// Paths that start alike.
 #[derive(Copy, Clone, PartialEq, Eq)]
 enum Mode {
-    Hemisphere { delta: bool },
-    Sphere { delta: bool },
+    /// Those of a `still` meter all begin at the same place.
+    Hemisphere {
+        delta: bool,
+        still: bool,
+    },
+    Sphere {
+        delta: bool,
+    },
     Surface,
     Ray,
 }
@@ -59,8 +65,15 @@ impl Meter<'_> {
     fn mode(&self, sums_lights: bool) -> Mode {
         let delta = !sums_lights;
         match self {
-            Meter::Irradiance { .. } | Meter::Cylinder(_) => Mode::Hemisphere { delta },
-            Meter::Flux(_) => Mode::Hemisphere { delta: true },
+            Meter::Irradiance { .. } => Mode::Hemisphere { delta, still: true },
+            Meter::Cylinder(_) => Mode::Hemisphere {
+                delta,
+                still: false,
+            },
+            Meter::Flux(_) => Mode::Hemisphere {
+                delta: true,
+                still: false,
+            },
             Meter::Scalar { .. } => Mode::Sphere { delta },
             Meter::Surface(_) => Mode::Surface,
             Meter::Ray { .. } => Mode::Ray,
@@ -125,10 +138,12 @@ impl<'a> Meters<'a> {
                 self.tracer.follow(paths, 1, tables.for_surfaces());
             }
             Mode::Ray => self.tracer.follow(paths, 0, tables.for_surfaces()),
-            Mode::Sphere { delta } => self.look(paths, tables.for_meters(delta, Receiver::Scalar)),
-            Mode::Hemisphere { delta } => {
+            Mode::Sphere { delta } => {
+                self.look(paths, tables.for_meters(delta, Receiver::Scalar), true);
+            }
+            Mode::Hemisphere { delta, still } => {
                 let encounters = std::mem::take(&mut paths.encounters);
-                self.look(paths, tables.for_meters(delta, Receiver::Irradiance));
+                self.look(paths, tables.for_meters(delta, Receiver::Irradiance), still);
                 self.look_at_models(paths, encounters);
             }
         }
@@ -146,11 +161,12 @@ impl<'a> Meters<'a> {
             .follow(paths, 1, self.tracer.tables.for_surfaces());
     }
 
-    /// Samples the lights at meters and sends paths out.
-    fn look(&self, paths: &mut Workspace, candidates: Candidates) {
+    /// Samples the lights at meters, still ones or not, and sends paths out.
+    fn look(&self, paths: &mut Workspace, candidates: Candidates, still: bool) {
         let next_event = NextEvent {
             tracer: &self.tracer,
             candidates,
+            still,
         };
         let fill = |number: u32, paths: &mut Workspace| {
             let (identity, uniforms) = (&paths.vertices.identity, &mut paths.uniforms);
@@ -183,52 +199,69 @@ impl<'a> Meters<'a> {
 
     /// Puts the vertices of a run at its meter.
     fn start(&self, slot: usize, run: &Run, workspace: &mut MeterWorkspace) {
-        for i in 0..run.count {
-            let identity = ((slot + i as usize) as u32, run.key, run.first + i);
-            let u = block::sample(run.key, run.first + i, 0);
-            let paths = &mut workspace.paths;
-            let stream = &self.streams[run.stream as usize];
-            if let Some(density) = self.densities.get(stream.sensor) {
+        let stream = &self.streams[run.stream as usize];
+        let paths = &mut workspace.paths;
+        if let Some(density) = self.densities.get(stream.sensor) {
+            for i in 0..run.count {
                 let [w, ..] = block::sample(run.key, run.first + i, WAVELENGTH_BLOCK);
-                paths.wavelengths[identity.0 as usize] = density.sample(w);
+                paths.wavelengths[slot + i as usize] = density.sample(w);
             }
-            match &stream.meter {
-                Meter::Irradiance { place, known } => {
-                    paths.known[identity.0 as usize] = *known;
-                    paths
-                        .vertices
-                        .push(*place, [FRAC_1_PI; 4], identity, [u[2], u[3]]);
+        }
+        let first = (slot as u32, run.key, run.first);
+        match &stream.meter {
+            Meter::Irradiance { place, known } => {
+                paths.known[slot..][..run.count as usize].fill(*known);
+                let response = [FRAC_1_PI; 4];
+                paths.vertices.repeat(place, response, first, run.count);
+            }
+            Meter::Scalar { place, known } => {
+                paths.known[slot..][..run.count as usize].fill(*known);
+                let response = [0.25 * FRAC_1_PI; 4];
+                paths.vertices.repeat(place, response, first, run.count);
+            }
+            meter => {
+                for i in 0..run.count {
+                    let identity = (first.0 + i, run.key, run.first + i);
+                    let u = block::sample(run.key, run.first + i, 0);
+                    self.start_one(meter, u, identity, workspace);
                 }
-                Meter::Scalar { place, known } => {
-                    paths.known[identity.0 as usize] = *known;
-                    paths
-                        .vertices
-                        .push(*place, [0.25 * FRAC_1_PI; 4], identity, [u[2], u[3]]);
-                }
-                Meter::Cylinder(cylinder) => {
-                    let place = cylinder.place(u[0]);
-                    paths
-                        .vertices
-                        .push(place, [FRAC_1_PI; 4], identity, [u[2], u[3]]);
-                }
-                Meter::Surface(seen) => {
-                    let encounter = Encounter {
-                        identity,
-                        light: [u[2], u[3]],
-                        ..seen.clone()
-                    };
-                    self.start_at_surface(paths, encounter);
-                }
-                Meter::Ray { origin, direction } => paths.flights.push(Flight {
-                    origin: *origin,
-                    direction: *direction,
-                    throughput: [1.0; 4],
-                    pdf: f32::INFINITY,
+            }
+        }
+    }
+
+    /// Starts a sample of a meter whose samples start differently.
+    fn start_one(
+        &self,
+        meter: &Meter<'_>,
+        u: [f32; 4],
+        identity: (u32, u64, u32),
+        workspace: &mut MeterWorkspace,
+    ) {
+        let (paths, light) = (&mut workspace.paths, [u[2], u[3]]);
+        match meter {
+            Meter::Irradiance { .. } | Meter::Scalar { .. } => {}
+            Meter::Cylinder(cylinder) => {
+                let response = [FRAC_1_PI; 4];
+                let vertices = &mut paths.vertices;
+                vertices.push(cylinder.place(u[0]), response, identity, light);
+            }
+            Meter::Surface(seen) => {
+                let encounter = Encounter {
                     identity,
-                    light: [u[2], u[3]],
-                }),
-                Meter::Flux(flux) => self.start_on_flux(flux, u, identity, workspace),
+                    light,
+                    ..seen.clone()
+                };
+                self.start_at_surface(paths, encounter);
             }
+            Meter::Ray { origin, direction } => paths.flights.push(Flight {
+                origin: *origin,
+                direction: *direction,
+                throughput: [1.0; 4],
+                pdf: f32::INFINITY,
+                identity,
+                light,
+            }),
+            Meter::Flux(flux) => self.start_on_flux(flux, u, identity, workspace),
         }
     }
 

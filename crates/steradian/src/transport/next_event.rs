@@ -34,6 +34,8 @@ pub(super) struct NextEvent<'a> {
     pub tracer: &'a Tracer<'a>,
     /// The emitters to sample.
     pub candidates: Candidates,
+    /// Whether a stream's samples are all taken at one place, so that aiming from there is worth preparing.
+    pub still: bool,
 }
 
 impl NextEvent<'_> {
@@ -358,8 +360,8 @@ impl Work for Deliver<'_> {
 struct Aimed<'a> {
     pass: &'a NextEvent<'a>,
     sampled: Sampled,
-    /// The last meter: a stream's samples are all taken at the same one.
-    last: Option<(Place, Aim)>,
+    /// The last meter, and how to aim from there; `None` where that cannot be done.
+    last: Option<(Place, Option<Aim>)>,
 }
 
 impl<'a> Aimed<'a> {
@@ -384,19 +386,26 @@ impl<'a> Aimed<'a> {
             return;
         }
         let place = vertices.place(i);
+        if !matches!(&self.last, Some((last, _)) if *last == place) {
+            self.last = Some((place, self.aim(&place)));
+        }
+        match &self.last {
+            Some((_, Some(aim))) => self.cast(i, &place, aim, u, shadows),
+            _ => self.pass.sample(i, self.sampled, u, vertices, shadows),
+        }
+    }
+
+    fn aim(&self, place: &Place) -> Option<Aim> {
         let tables = self.pass.tracer.tables;
         let emitter = &tables.emitters[self.sampled.number];
-        if !is_aimed_at(tables, emitter, self.pass.start(&place)) {
-            self.pass.sample(i, self.sampled, u, vertices, shadows);
-            return;
-        }
-        if !matches!(&self.last, Some((last, _)) if *last == place) {
-            let aim = Aim::new(tables, emitter, &place, self.pass.is_spherical());
-            self.last = Some((place, aim));
-        }
-        if let Some((_, aim)) = &self.last {
-            self.cast(i, &place, aim, u, shadows);
-        }
+        let start = self.pass.start(place);
+        is_aimed_at(tables, emitter, start).then(|| {
+            let aim = Aim::new(tables, emitter, place, self.pass.is_spherical());
+            match self.pass.still {
+                true => aim.prepared(),
+                false => aim,
+            }
+        })
     }
 
     fn cast(&self, i: usize, place: &Place, aim: &Aim, u: [f32; 2], shadows: &mut Shadows) {

@@ -125,6 +125,7 @@ impl Tracer<'_> {
         NextEvent {
             tracer: self,
             candidates,
+            still: false,
         }
         .gather(workspace);
         scatter::reflect(self, workspace, segment);

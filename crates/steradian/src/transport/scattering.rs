@@ -105,6 +105,7 @@ pub(super) fn scatter(tracer: &Tracer, workspace: &mut Workspace, segment: u32) 
     NextEvent {
         tracer,
         candidates: tracer.tables.for_surfaces(),
+        still: false,
     }
     .settle_lit(workspace);
 }
