@@ -66,7 +66,7 @@ Examples:
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Stopping")]
 struct Stop {
-    /// Take this many samples a pixel, all passes together: camera rays, each with four paths from what it meets first (by wavelength:
+    /// Take this many samples a pixel, all passes together: camera rays, each with up to four paths from what it meets first (by wavelength:
     /// one) [default: 64]
     #[arg(long, value_name = "NUMBER", value_parser = values::count, conflicts_with_all = ["rel_error", "time"])]
     samples: Option<u64>,

@@ -158,7 +158,7 @@ struct Stop {
     /// Stop after this time: 30s, 5min …
     #[arg(long, value_name = "TIME", value_parser = values::duration)]
     time: Option<Duration>,
-    /// Take this many samples a reading, whatever the error
+    /// Take this many samples a reading, whatever the error: up to four paths each, where a pilot finds that best
     #[arg(long, value_name = "NUMBER", value_parser = values::count, conflicts_with_all = ["rel_error", "abs_error", "rms_error", "time"])]
     samples: Option<u64>,
 }

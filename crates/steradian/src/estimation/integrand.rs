@@ -33,6 +33,11 @@ pub trait Integrand: Sync {
         0.0
     }
 
+    /// How many paths a sample of a stream is made of, each as good as a sample by itself for finding out how much the stream varies.
+    fn paths_of_a_sample(&self, _stream: usize) -> u32 {
+        1
+    }
+
     /// Scratch memory for one thread.
     fn new_workspace(&self) -> Self::Workspace;
 

@@ -1,7 +1,7 @@
 //! The procedure: fixed number, fixed time, or pilot – plan – final for a tolerance.
 //!
 //! # Reaching a tolerance
-//! 1. *Pilot*: at least 4096 samples a stream and 65 536 a sensor, doubled until the effective number (Σx)²/Σx² is at least 100, so
+//! 1. *Pilot*: at least 4096 paths a stream and 65 536 a sensor, doubled until the effective number (Σx)²/Σx² is at least 100, so
 //!    that rare bright samples have shown themselves. It stops at 2²² samples a sensor, or 65 536 a stream if that is more, so that a
 //!    stream that sees nothing ends.
 //! 2. *Plan*: with hw the half-width the pilot reached and tol the allowed one, n = n_pilot · max(¼, (1.4 hw / tol)²). The variance behind
@@ -191,7 +191,11 @@ impl<'a, I: Integrand> Session<'a, I> {
             Some(_) => rms::PILOT_OF_STREAM,
             None => PILOT_OF_STREAM,
         };
-        let first = |stream| least.max(PILOT_OF_SENSOR.div_ceil(size(stream)));
+        let paths = |stream| u64::from(self.integrand.paths_of_a_sample(stream));
+        let first = |stream| {
+            let count = least.max(PILOT_OF_SENSOR.div_ceil(size(stream)));
+            count.div_ceil(paths(stream))
+        };
         let longest = |stream| LONGEST_PILOT_OF_STREAM.max(LONGEST_PILOT_OF_SENSOR / size(stream));
         let longest: Vec<_> = (0..cells.streams())
             .map(|stream| self.length(longest(stream)))

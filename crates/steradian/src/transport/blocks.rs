@@ -8,22 +8,27 @@
 //! put together. With a tolerance ε each block of a cut sensor is a sensor by itself: its floor, ε · 1 % of the mean, and the pooled
 //! variance of its pilot are those of the block. A time is shared out in proportion to points, and what one block leaves the others have.
 
-use std::ops::{ControlFlow, Range};
-use std::time::{Duration, Instant};
+mod watch;
 
+use std::ops::Range;
+
+use super::branching::Branches;
+use super::branching::pilot::is_worth;
 use super::channels;
-use super::measure::{Meters, Part, streams};
+use super::measure::pilot::{POINTS as PILOT_POINTS, SAMPLES as PILOT_SAMPLES};
+use super::measure::{Meters, Part, Shared, Stream, streams};
 use super::meters::{Context, Prepared};
 use super::run::{MeasureOptions, SimulationError, chosen_sensors};
 use super::tables::Tables;
 use super::unsampled::unsampled;
-use crate::estimation::{Observer, Phase, Plan, Progress, Replicates, estimate};
+use crate::estimation::{Observer, Replicates, estimate};
 use crate::measurement::{
     Dimming, LaneRecord, Measurements, PointRecord, SensorRecord, Unmeasured,
 };
 use crate::scene::Scene;
 use crate::sensor::{Kind, Readout};
 use crate::spectrum::WavelengthDensity;
+use watch::Watch;
 
 /// Points that are in work at a time unless asked otherwise: some 2 kB each, and three times that while a tolerance is looked for.
 pub const POINTS_OF_A_BLOCK: usize = 1 << 14;
@@ -128,6 +133,28 @@ struct Piece {
     points: Range<usize>,
 }
 
+impl Piece {
+    fn whole(position: usize, size: Size) -> Self {
+        let points = 0..size.points;
+        Self { position, points }
+    }
+}
+
+/// Some points of a sensor, spread evenly; all of one that cannot be cut.
+fn spread(whole: &Piece, size: Size) -> Vec<Piece> {
+    if !size.can_be_cut || size.points <= PILOT_POINTS {
+        return vec![whole.clone()];
+    }
+    let point = |number: usize| {
+        let first = (2 * number + 1) * size.points / (2 * PILOT_POINTS);
+        Piece {
+            points: first..first + 1,
+            ..*whole
+        }
+    };
+    (0..PILOT_POINTS).map(point).collect()
+}
+
 fn points_of(block: &[Piece]) -> usize {
     block.iter().map(|piece| piece.points.len()).sum()
 }
@@ -172,6 +199,8 @@ struct Run<'r, 'a> {
     weights: Vec<Vec<f64>>,
     /// By chosen sensor; none unless the run is spectral.
     densities: Vec<WavelengthDensity>,
+    /// By chosen sensor.
+    branches: Vec<Branches>,
     unsampled: Vec<String>,
 }
 
@@ -184,7 +213,7 @@ impl<'r, 'a> Run<'r, 'a> {
     ) -> Self {
         let sensors = || chosen.iter().map(|sensor| &scene.sensors()[*sensor]);
         let max_depth = options.max_depth.unwrap_or(u32::MAX);
-        Self {
+        let mut run = Self {
             context: Context::new(tables, max_depth),
             weights: sensors()
                 .map(|sensor| scalar_weights(scene, &sensor.readouts))
@@ -192,32 +221,71 @@ impl<'r, 'a> Run<'r, 'a> {
             densities: sensors()
                 .filter_map(|sensor| channels::density(scene, sensor))
                 .collect(),
+            branches: vec![],
             unsampled: unsampled(scene),
             scene,
             options,
             tables,
             chosen,
+        };
+        run.branches = (0..run.chosen.len()).map(|i| run.branches(i)).collect();
+        run
+    }
+
+    /// How many paths a sensor's paths branch into: those of a spectral run would share their wavelengths.
+    fn branches(&self, position: usize) -> Branches {
+        if !self.densities.is_empty() {
+            return Branches::ONE;
+        }
+        let size = size(self.scene, self.chosen[position]);
+        let plan = &self.options.plan;
+        let samples = plan.stop.samples.map(|n| n * size.points as u64);
+        if !is_worth(samples, PILOT_SAMPLES) {
+            return Branches::ONE;
+        }
+        let mut parts: Vec<_> = spread(&Piece::whole(position, size), size)
+            .iter()
+            .map(|piece| self.part(piece))
+            .collect();
+        let streams = streams(&mut parts, &self.weights);
+        if streams.is_empty() {
+            return Branches::ONE;
+        }
+        let step = streams.len().div_ceil(PILOT_POINTS);
+        let streams = streams.into_iter().step_by(step).collect();
+        let net = plan
+            .stop
+            .samples
+            .map(|n| n as f64 / f64::from(plan.replicates));
+        self.meters(streams).suited_branches(net)
+    }
+
+    fn part(&self, piece: &Piece) -> Part<'a> {
+        let sensor = &self.scene.sensors()[self.chosen[piece.position]];
+        Part {
+            position: piece.position,
+            sensor,
+            readings: self.context.prepare(sensor, piece.points.clone()),
         }
     }
 
-    fn measure(&self, block: &[Piece], watch: &mut Watch) -> Result<Measurements, SimulationError> {
-        let part = |piece: &Piece| {
-            let sensor = &self.scene.sensors()[self.chosen[piece.position]];
-            Part {
-                position: piece.position,
-                sensor,
-                readings: self.context.prepare(sensor, piece.points.clone()),
-            }
+    fn meters<'s>(&'s self, streams: Vec<Stream<'s>>) -> Meters<'s> {
+        let shared = Shared {
+            weights: &self.weights,
+            densities: &self.densities,
+            branches: &self.branches,
         };
-        let mut parts: Vec<_> = block.iter().map(part).collect();
+        Meters::new(self.tables, self.options, streams, shared)
+    }
+
+    fn measure(&self, block: &[Piece], watch: &mut Watch) -> Result<Measurements, SimulationError> {
+        let mut parts: Vec<_> = block.iter().map(|piece| self.part(piece)).collect();
         let streams = streams(&mut parts, &self.weights);
         let plan = watch.begin(points_of(block), &self.options.plan);
         let replicates = if streams.is_empty() {
             vec![]
         } else {
-            let shared = (&self.weights[..], &self.densities[..]);
-            let meters = Meters::new(self.tables, self.options, streams, shared);
-            estimate(&meters, &plan, watch)?
+            estimate(&self.meters(streams), &plan, watch)?
         };
         Ok(self.record(parts, replicates))
     }
@@ -266,106 +334,6 @@ impl<'r, 'a> Run<'r, 'a> {
         };
         let missing = self.chosen.iter().enumerate().map(missing);
         missing.filter(|missing| missing.points > 0).collect()
-    }
-}
-
-/// Shows an observer the run as a whole, and shares out its time.
-struct Watch<'o> {
-    observer: &'o mut dyn Observer,
-    start: Instant,
-    several: bool,
-    /// Points of the blocks that are done, of the one in work, and of all.
-    done: usize,
-    at_work: usize,
-    all: usize,
-    stopped: bool,
-}
-
-impl<'o> Watch<'o> {
-    fn new(observer: &'o mut dyn Observer, blocks: &[Vec<Piece>]) -> Self {
-        Self {
-            observer,
-            start: Instant::now(),
-            several: blocks.len() > 1,
-            done: 0,
-            at_work: 0,
-            all: blocks.iter().map(|block| points_of(block)).sum(),
-            stopped: false,
-        }
-    }
-
-    fn is_stopped(&self) -> bool {
-        self.stopped
-    }
-
-    /// The plan of a block of so many points: with its share of the time that is left.
-    fn begin(&mut self, points: usize, plan: &Plan) -> Plan {
-        self.at_work = points;
-        let left = (self.all - self.done).max(1);
-        let elapsed = if self.done == 0 {
-            Duration::ZERO
-        } else {
-            self.start.elapsed()
-        };
-        let share = |time: Duration| {
-            let time = time.saturating_sub(elapsed);
-            time.mul_f64(points as f64 / left as f64)
-        };
-        let mut plan = plan.clone();
-        if self.several {
-            plan.stop.time = plan.stop.time.map(share);
-        }
-        plan
-    }
-
-    /// A block is done; the observer is asked, however short it was.
-    fn end(&mut self) {
-        self.done += self.at_work;
-        self.at_work = 0;
-        if self.done < self.all && !self.stopped {
-            // What an observer says is kept in `stopped`.
-            let _ = self.update(&Progress {
-                phase: Phase::Final,
-                samples: 0,
-                planned: 0,
-                finished: 0.0,
-                elapsed: self.start.elapsed(),
-                remaining: None,
-                relative_error: None,
-            });
-        }
-    }
-
-    /// The same progress, but of all blocks.
-    fn overall(&self, progress: &Progress) -> Progress {
-        let of_block = match progress.phase {
-            Phase::Pilot => 0.0,
-            Phase::Final => progress.finished,
-            Phase::Rerun => 1.0,
-        };
-        let points = self.done as f64 + of_block * self.at_work as f64;
-        let finished = points / self.all.max(1) as f64;
-        let elapsed = self.start.elapsed();
-        let remaining = elapsed.as_secs_f64() * (1.0 - finished) / finished;
-        Progress {
-            finished,
-            elapsed,
-            remaining: Duration::try_from_secs_f64(remaining).ok(),
-            ..*progress
-        }
-    }
-}
-
-impl Observer for Watch<'_> {
-    fn update(&mut self, progress: &Progress) -> ControlFlow<()> {
-        let verdict = if self.several {
-            let overall = self.overall(progress);
-            self.observer.update(&overall)
-        } else {
-            self.observer.update(progress)
-        };
-        self.stopped |= verdict.is_break();
-        verdict
     }
 }
 
@@ -431,60 +399,5 @@ mod tests {
         ];
         assert_eq!(pieces(&[(18, true), (2, true)], 8), expected);
         assert_eq!(pieces(&[(18, false)], 8), [[(0, 0..18)]]);
-    }
-
-    /// A half of the points have a half of the time; what the first block left over goes to the others.
-    #[test]
-    fn time_is_shared_out_by_points() {
-        let (mut silent, plan) = (
-            crate::estimation::Silent,
-            Plan {
-                stop: crate::estimation::Stopping::at_time(Duration::from_secs(1000)),
-                ..Plan::default()
-            },
-        );
-        let sizes = [8, 4, 4].map(|points| Size {
-            points,
-            can_be_cut: true,
-        });
-        let mut watch = Watch::new(&mut silent, &cut(&sizes, 8));
-        let seconds = |plan: &Plan| plan.stop.time.unwrap().as_secs_f64();
-        let first = seconds(&watch.begin(8, &plan));
-        watch.end();
-        let second = seconds(&watch.begin(8, &plan));
-        assert_eq!(first, 500.0);
-        assert!((999.0..=1000.0).contains(&second), "{second}");
-    }
-
-    /// Half-way through the second of two equal blocks, three quarters are done; pilots count nothing.
-    #[test]
-    fn an_observer_sees_all_blocks() {
-        let mut seen = Vec::new();
-        let mut observer = |progress: &Progress| {
-            seen.push(progress.finished);
-            ControlFlow::Continue(())
-        };
-        let size = Size {
-            points: 16,
-            can_be_cut: true,
-        };
-        let mut watch = Watch::new(&mut observer, &cut(&[size], 8));
-        let told = |phase| Progress {
-            phase,
-            samples: 0,
-            planned: 0,
-            finished: 0.5,
-            elapsed: Duration::ZERO,
-            remaining: None,
-            relative_error: None,
-        };
-        watch.begin(8, &Plan::default());
-        let _ = watch.update(&told(Phase::Pilot));
-        let _ = watch.update(&told(Phase::Final));
-        watch.end();
-        watch.begin(8, &Plan::default());
-        let _ = watch.update(&told(Phase::Final));
-        watch.end();
-        assert_eq!(seen, [0.0, 0.25, 0.5, 0.75]);
     }
 }

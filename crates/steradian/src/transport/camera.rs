@@ -5,11 +5,12 @@
 //! where paths [branch](super::branching). Else the first vertex has them for its light.
 
 mod optics;
+mod pilot;
 
 use std::ops::Range;
 
 use self::optics::Optics;
-use super::branching::{BRANCHES, LIGHT_BLOCK};
+use super::branching::{BRANCHES, Branches, LIGHT_BLOCK};
 use super::channels;
 use super::columns::{BATCH, Flight, Workspace};
 use super::light_tracing::{Aims, LightTracer};
@@ -33,6 +34,8 @@ pub(super) struct CameraSampler<'a> {
     density: Option<WavelengthDensity>,
     /// Channels of the film, of a spectral run.
     channels: [usize; 4],
+    /// Paths from what a camera ray meets first.
+    branches: Branches,
     /// Finds what paths from here cannot, if there is any.
     light: Option<LightTracer<'a>>,
 }
@@ -56,6 +59,11 @@ impl<'a> CameraSampler<'a> {
             optics: Optics::new(camera),
             tracer,
             channels,
+            // Those of a spectral run would share their wavelengths.
+            branches: match density {
+                Some(_) => Branches::ONE,
+                None => Branches::all(BRANCHES),
+            },
             density,
             light,
         }
@@ -81,7 +89,7 @@ impl<'a> CameraSampler<'a> {
                 light: numbers,
             });
         }
-        if self.optics.has_lens() && self.branches() == 1 {
+        if self.optics.has_lens() && self.branches == Branches::ONE {
             self.renew_light_numbers(paths);
         }
     }
@@ -91,11 +99,6 @@ impl<'a> CameraSampler<'a> {
         scatter::fill(&self.tracer, &flights.identity, LIGHT_BLOCK, uniforms);
         std::mem::swap(&mut flights.light_u, &mut uniforms[2]);
         std::mem::swap(&mut flights.light_v, &mut uniforms[3]);
-    }
-
-    /// Paths from what a camera ray meets first: one of a spectral run, where branches would share their wavelengths.
-    fn branches(&self) -> u32 {
-        if self.density.is_some() { 1 } else { BRANCHES }
     }
 
     fn tables(&self) -> &Tables<'_> {
@@ -112,15 +115,13 @@ impl PixelSampler for CameraSampler<'_> {
 
     fn sample(&self, batch: &PixelBatch<'_>, paths: &mut Workspace, out: &mut [[f32; 4]]) {
         paths.watch.start();
-        paths.watch.times.paths += batch.len() as u64 * u64::from(self.branches());
+        paths.watch.times.paths += batch.len() as u64 * u64::from(self.branches.count());
         self.tracer.begin(paths, batch.len());
         self.launch(batch, paths);
         paths.watch.lap(Stage::Camera);
-        if self.branches() == 1 {
-            self.tracer.follow(paths, 0, self.tables().for_surfaces());
-        } else {
-            self.tracer.follow_branches(paths);
-        }
+        let candidates = self.tables().for_surfaces();
+        self.tracer
+            .follow_branches(paths, candidates, self.branches);
         for (slot, lanes) in out.iter_mut().enumerate() {
             if self.density.is_some() {
                 *lanes = self.channels(paths, slot);

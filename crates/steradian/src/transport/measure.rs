@@ -1,22 +1,24 @@
 //! Measuring: the streams of all sensors as one integrand.
 
-use std::f32::consts::FRAC_1_PI;
 use std::f64::consts::PI;
 
 use super::MeasureOptions;
+use super::branching::Branches;
 use super::channels;
-use super::columns::{Flight, Workspace};
-use super::flux::{FluxMeter, Looks};
+use super::columns::Workspace;
 use super::meters::{Meter, Prepared};
 use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter;
 use super::scattering::{self, Encounter};
-use super::tables::{Candidates, Choice, Model, Receiver, Tables};
+use super::tables::{Candidates, Choice, Receiver, Tables};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
-use crate::sampling::{block, hash, warp};
+use crate::sampling::hash;
 use crate::sensor::Sensor;
 use crate::spectrum::WavelengthDensity;
+
+pub(super) mod pilot;
+mod start;
 
 /// Block of the direction in which a meter looks, out of the way of the blocks of a path's segments.
 const DIRECTION_BLOCK: u32 = 1 << 30;
@@ -43,6 +45,19 @@ pub(super) struct Meters<'a> {
     columns: usize,
     /// Of wavelengths, by sensor; none unless the run is spectral.
     densities: &'a [WavelengthDensity],
+    /// Paths from what a path of a sensor meets first, by sensor.
+    branches: &'a [Branches],
+}
+
+/// What the streams of a run have in common, by sensor.
+#[derive(Clone, Copy)]
+pub(super) struct Shared<'a> {
+    /// Of the columns.
+    pub weights: &'a [Vec<f64>],
+    /// Of wavelengths; none unless the run is spectral.
+    pub densities: &'a [WavelengthDensity],
+    /// Paths from what a path meets first.
+    pub branches: &'a [Branches],
 }
 
 /// Paths that start alike.
@@ -104,7 +119,7 @@ impl<'a> Meters<'a> {
         tables: &'a Tables<'a>,
         options: &MeasureOptions,
         streams: Vec<Stream<'a>>,
-        (weights, densities): (&'a [Vec<f64>], &'a [WavelengthDensity]),
+        shared: Shared<'a>,
     ) -> Self {
         let tracer = Tracer {
             tables,
@@ -115,13 +130,19 @@ impl<'a> Meters<'a> {
         Self {
             tracer,
             streams,
-            weights,
+            weights: shared.weights,
             columns: tables.scene.columns(),
-            densities,
+            densities: shared.densities,
+            branches: shared.branches,
         }
     }
 
-    fn trace(&self, mode: Mode, runs: &[(usize, Run)], workspace: &mut MeterWorkspace) {
+    fn trace(
+        &self,
+        (mode, branches): (Mode, Branches),
+        runs: &[(usize, Run)],
+        workspace: &mut MeterWorkspace,
+    ) {
         let tables = self.tracer.tables;
         workspace.paths.vertices.clear();
         workspace.paths.mirrors.clear();
@@ -137,13 +158,20 @@ impl<'a> Meters<'a> {
                 self.tracer.reflect(paths, 1);
                 self.tracer.follow(paths, 1, tables.for_surfaces());
             }
-            Mode::Ray => self.tracer.follow(paths, 0, tables.for_surfaces()),
+            Mode::Ray => {
+                let candidates = tables.for_surfaces();
+                self.tracer.follow_branches(paths, candidates, branches);
+            }
             Mode::Sphere { delta } => {
-                self.look(paths, tables.for_meters(delta, Receiver::Scalar), true);
+                let candidates = tables.for_meters(delta, Receiver::Scalar);
+                self.look(paths, candidates, true);
+                self.tracer.follow_branches(paths, candidates, branches);
             }
             Mode::Hemisphere { delta, still } => {
                 let encounters = std::mem::take(&mut paths.encounters);
-                self.look(paths, tables.for_meters(delta, Receiver::Irradiance), still);
+                let candidates = tables.for_meters(delta, Receiver::Irradiance);
+                self.look(paths, candidates, still);
+                self.tracer.follow_branches(paths, candidates, branches);
                 self.look_at_models(paths, encounters);
             }
         }
@@ -161,7 +189,7 @@ impl<'a> Meters<'a> {
             .follow(paths, 1, self.tracer.tables.for_surfaces());
     }
 
-    /// Samples the lights at meters, still ones or not, and sends paths out.
+    /// Samples the lights at meters, still ones or not, and sends paths out: they are among the flights then.
     fn look(&self, paths: &mut Workspace, candidates: Candidates, still: bool) {
         let next_event = NextEvent {
             tracer: &self.tracer,
@@ -190,159 +218,55 @@ impl<'a> Meters<'a> {
             &mut paths.uniforms,
         );
         if candidates.receiver == Receiver::Scalar {
-            leave_over_sphere(paths);
+            start::leave_over_sphere(paths);
         } else {
             scatter::leave_diffusely(&self.tracer, paths, None);
         }
-        self.tracer.follow(paths, 0, candidates);
     }
 
-    /// Puts the vertices of a run at its meter.
-    fn start(&self, slot: usize, run: &Run, workspace: &mut MeterWorkspace) {
-        let stream = &self.streams[run.stream as usize];
-        let paths = &mut workspace.paths;
-        if let Some(density) = self.densities.get(stream.sensor) {
-            for i in 0..run.count {
-                let [w, ..] = block::sample(run.key, run.first + i, WAVELENGTH_BLOCK);
-                paths.wavelengths[slot + i as usize] = density.sample(w);
-            }
-        }
-        let first = (slot as u32, run.key, run.first);
-        match &stream.meter {
-            Meter::Irradiance { place, known } => {
-                paths.known[slot..][..run.count as usize].fill(*known);
-                let response = [FRAC_1_PI; 4];
-                paths.vertices.repeat(place, response, first, run.count);
-            }
-            Meter::Scalar { place, known } => {
-                paths.known[slot..][..run.count as usize].fill(*known);
-                let response = [0.25 * FRAC_1_PI; 4];
-                paths.vertices.repeat(place, response, first, run.count);
-            }
-            meter => {
-                for i in 0..run.count {
-                    let identity = (first.0 + i, run.key, run.first + i);
-                    let u = block::sample(run.key, run.first + i, 0);
-                    self.start_one(meter, u, identity, workspace);
-                }
-            }
-        }
-    }
-
-    /// Starts a sample of a meter whose samples start differently.
-    fn start_one(
+    /// Follows the paths of runs, those that start alike together.
+    pub fn follow(
         &self,
-        meter: &Meter<'_>,
-        u: [f32; 4],
-        identity: (u32, u64, u32),
+        runs: &[Run],
+        branches: impl Fn(&Stream) -> Branches,
         workspace: &mut MeterWorkspace,
     ) {
-        let (paths, light) = (&mut workspace.paths, [u[2], u[3]]);
-        match meter {
-            Meter::Irradiance { .. } | Meter::Scalar { .. } => {}
-            Meter::Cylinder(cylinder) => {
-                let response = [FRAC_1_PI; 4];
-                let vertices = &mut paths.vertices;
-                vertices.push(cylinder.place(u[0]), response, identity, light);
+        let count = runs.iter().map(|run| run.count as usize).sum();
+        self.tracer.begin(&mut workspace.paths, count);
+        workspace.sign.clear();
+        workspace.sign.resize(count, 1.0);
+        let sums_lights = self.tracer.tables.sums_lights();
+        let kind = |run: &Run| {
+            let stream = &self.streams[run.stream as usize];
+            (stream.meter.mode(sums_lights), branches(stream))
+        };
+        let mut slot = 0;
+        let mut alike: Vec<(usize, Run)> = Vec::new();
+        for run in runs {
+            if let Some((_, first)) = alike.first()
+                && kind(first) != kind(run)
+            {
+                self.trace(kind(first), &alike, workspace);
+                alike.clear();
             }
-            Meter::Surface(seen) => {
-                let encounter = Encounter {
-                    identity,
-                    light,
-                    ..seen.clone()
-                };
-                self.start_at_surface(paths, encounter);
-            }
-            Meter::Ray { origin, direction } => paths.flights.push(Flight {
-                origin: *origin,
-                direction: *direction,
-                throughput: [1.0; 4],
-                pdf: f32::INFINITY,
-                identity,
-                light,
-            }),
-            Meter::Flux(flux) => self.start_on_flux(flux, u, identity, workspace),
+            alike.push((slot, *run));
+            slot += run.count as usize;
+        }
+        if let Some((_, first)) = alike.first() {
+            self.trace(kind(first), &alike, workspace);
         }
     }
 
-    fn start_at_surface(&self, paths: &mut Workspace, seen: Encounter) {
-        let tables = self.tracer.tables;
-        let side = &tables.sides[seen.side as usize];
-        if side.model == Model::Any {
-            paths.encounters.push(seen);
-            return;
-        }
-        let wavelengths = paths.wavelengths[seen.identity.0 as usize];
-        let reflectance = tables.lanes_at(&side.reflectance, &wavelengths, || seen.site);
-        match side.model {
-            Model::Lambertian => paths.vertices.push(
-                seen.place,
-                reflectance.map(|lane| lane * FRAC_1_PI),
-                seen.identity,
-                seen.light,
-            ),
-            Model::Mirror => {
-                let mirrors = &mut paths.mirrors;
-                mirrors.push(seen.place, reflectance, seen.identity, seen.light);
-                let viewer = paths.viewer.iter_mut().zip(seen.viewer);
-                viewer.for_each(|(column, axis)| column.push(axis));
-            }
-            // A pane is met by a ray.
-            Model::Black | Model::Any | Model::Pane => {}
-        }
-    }
-
-    fn start_on_flux(
+    /// Tells the columns of every sample, with the number of its run.
+    pub fn read(
         &self,
-        flux: &FluxMeter,
-        u: [f32; 4],
-        identity: (u32, u64, u32),
+        runs: &[Run],
         workspace: &mut MeterWorkspace,
+        mut tell: impl FnMut(usize, &[f64]),
     ) {
-        let tables = self.tracer.tables;
-        let Some(drawn) = flux.draw([f64::from(u[0]), f64::from(u[1])]) else {
-            return;
-        };
-        let slot = identity.0 as usize;
-        let wavelengths = &workspace.paths.wavelengths[slot];
-        let start = match drawn.part {
-            None => flux.on_virtual(identity),
-            Some(part) if tables.is_any(part, flux.front) => {
-                flux.on_model(tables, &drawn, part, wavelengths, identity)
-            }
-            Some(part) => flux.on_shape(tables, &drawn, part, wavelengths),
-        };
-        workspace.sign[slot] = start.sign;
-        if let Some((group, radiance)) = start.emitted {
-            let gathered = &mut workspace.paths.gathered;
-            self.tracer
-                .add(gathered, group, identity.0, |lane| radiance[lane]);
-        }
-        if start.weights == [0.0; 4] {
-            return;
-        }
-        if let (Looks::AtModel { .. }, Some(part)) = (start.looks, drawn.part) {
-            let [a, b, ..] = block::sample(identity.1, identity.2, DIRECTION_BLOCK);
-            let light = [u[2], u[3]];
-            workspace.paths.encounters.push(Encounter {
-                identity,
-                light,
-                ..drawn.seen(tables, part, &start, [a, b])
-            });
-            return;
-        }
-        workspace.paths.vertices.push(
-            drawn.place(tables, start.front),
-            start.weights.map(|weight| weight * FRAC_1_PI),
-            identity,
-            [u[2], u[3]],
-        );
-    }
-
-    fn tally(&self, batch: &SampleBatch, workspace: &mut MeterWorkspace, tally: &mut Tally) {
         let tables = self.tracer.tables;
         let mut slot = 0;
-        for (number, run) in batch.runs.iter().enumerate() {
+        for (number, run) in runs.iter().enumerate() {
             let scale = self.streams[run.stream as usize].meter.scale();
             for _ in 0..run.count {
                 let factor = scale * workspace.sign[slot];
@@ -351,11 +275,7 @@ impl<'a> Meters<'a> {
                     .columns
                     .iter_mut()
                     .for_each(|column| *column *= factor);
-                tally.sample(
-                    number,
-                    &workspace.columns,
-                    self.weights(run.stream as usize),
-                );
+                tell(number, &workspace.columns);
                 slot += 1;
             }
         }
@@ -389,6 +309,10 @@ impl Integrand for Meters<'_> {
         self.streams[stream].offset
     }
 
+    fn paths_of_a_sample(&self, stream: usize) -> u32 {
+        self.branches[self.streams[stream].sensor].count()
+    }
+
     fn new_workspace(&self) -> MeterWorkspace {
         MeterWorkspace {
             columns: vec![0.0; self.columns],
@@ -397,46 +321,11 @@ impl Integrand for Meters<'_> {
     }
 
     fn sample(&self, batch: &SampleBatch, workspace: &mut MeterWorkspace, tally: &mut Tally) {
-        let count = batch.count();
-        self.tracer.begin(&mut workspace.paths, count);
-        workspace.sign.clear();
-        workspace.sign.resize(count, 1.0);
-        let sums_lights = self.tracer.tables.sums_lights();
-        let mode = |run: &Run| self.streams[run.stream as usize].meter.mode(sums_lights);
-        let mut slot = 0;
-        let mut alike: Vec<(usize, Run)> = Vec::new();
-        for run in batch.runs {
-            if let Some((_, first)) = alike.first()
-                && mode(first) != mode(run)
-            {
-                self.trace(mode(first), &alike, workspace);
-                alike.clear();
-            }
-            alike.push((slot, *run));
-            slot += run.count as usize;
-        }
-        if let Some((_, first)) = alike.first() {
-            self.trace(mode(first), &alike, workspace);
-        }
-        self.tally(batch, workspace, tally);
-    }
-}
-
-/// Sends a path out of every meter of scalar irradiance, uniformly over the sphere.
-fn leave_over_sphere(paths: &mut Workspace) {
-    let vertices = &paths.vertices;
-    paths.flights.clear();
-    for i in 0..vertices.len() {
-        let identity = &vertices.identity;
-        paths.flights.push(Flight {
-            origin: vertices.place(i).point,
-            direction: warp::sphere(paths.uniforms[0][i], paths.uniforms[1][i]),
-            throughput: std::array::from_fn(|lane| {
-                vertices.response[lane][i] * 4.0 * std::f32::consts::PI
-            }),
-            pdf: 0.25 * FRAC_1_PI,
-            identity: (identity.slot[i], identity.key[i], identity.index[i]),
-            light: [paths.uniforms[2][i], paths.uniforms[3][i]],
+        let branches = |stream: &Stream| self.branches[stream.sensor];
+        self.follow(batch.runs, branches, workspace);
+        self.read(batch.runs, workspace, |run, columns| {
+            let stream = batch.runs[run].stream as usize;
+            tally.sample(run, columns, self.weights(stream));
         });
     }
 }

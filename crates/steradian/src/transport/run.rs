@@ -154,13 +154,10 @@ pub fn render(
     };
     let density = channels::density(scene, sensor);
     let camera = camera.with_resolution(resolution);
+    let film = film(scene, sensor, resolution, options.filter);
     let sampler = CameraSampler::new(tracer, &camera, density);
-    let exposure = expose(
-        &sampler,
-        &film(scene, sensor, resolution, options.filter),
-        &options.plan,
-        observer,
-    )?;
+    let sampler = sampler.with_suited_branches(&film, &options.plan);
+    let exposure = expose(&sampler, &film, &options.plan, observer)?;
     Ok(Picture {
         scene_name: scene.name().into(),
         camera: sensor.name.clone(),

@@ -1,0 +1,95 @@
+//! A pilot of a picture: how many branches its camera rays have.
+
+use super::super::branching::Branches;
+use super::super::branching::pilot::{Variances, is_worth};
+use super::super::columns::{BATCH, Workspace};
+use super::CameraSampler;
+use crate::estimation::Plan;
+use crate::estimation::film::{CHANNELS, Film, PixelBatch, PixelSampler};
+use crate::sampling::{block, hash};
+
+/// Pixels spread over the film: many, as few of them may have all the variance.
+const PIXELS: usize = 512;
+const NETS: usize = 2;
+const SAMPLES_OF_A_NET: usize = 8;
+const STEMS: usize = PIXELS * NETS * SAMPLES_OF_A_NET;
+/// Samples of a pixel in a pass where that is not told.
+const USUAL_NET: f64 = 16.0;
+const PIXELS_OF_A_BATCH: usize = BATCH / (NETS * SAMPLES_OF_A_NET);
+/// Tells the numbers of a pilot from those of the picture.
+const KEY: u64 = 0x7069_6c6f_7421;
+
+impl<'a> CameraSampler<'a> {
+    /// The same with as many branches as suit the picture, if it is worth finding out.
+    pub fn with_suited_branches(mut self, film: &Film, plan: &Plan) -> Self {
+        let pixels = u64::from(film.width) * u64::from(film.height);
+        let samples = plan.stop.samples.map(|samples| samples * pixels);
+        if self.branches != Branches::ONE && is_worth(samples, STEMS) {
+            let of_pass = |samples| samples as f64 / f64::from(plan.replicates);
+            let net = plan.stop.samples.map_or(USUAL_NET, of_pass);
+            self.branches = self.suited_branches(film, net / SAMPLES_OF_A_NET as f64);
+        }
+        self
+    }
+
+    /// They are the same for every seed.
+    fn suited_branches(&mut self, film: &Film, longer: f64) -> Branches {
+        let mut paths = Workspace::default();
+        let key = hash::combine(film.key, KEY);
+        let means = [0, 1, 2, 3].map(|number| {
+            self.branches = Branches::only(number);
+            let batches = 0..PIXELS / PIXELS_OF_A_BATCH;
+            let batches = batches.map(|batch| self.means(film, (key, batch), &mut paths));
+            batches.flatten().collect::<Vec<_>>()
+        });
+        let rays = paths.watch.times.rays as f64 / (means.len() * STEMS) as f64 - 1.0;
+        Branches::all(Variances::of(&means, NETS).best(rays, longer))
+    }
+
+    /// Means of the nets of some pixels.
+    fn means(&self, film: &Film, (key, batch): (u64, usize), paths: &mut Workspace) -> Vec<f64> {
+        let draws: Vec<_> = (0..BATCH).map(|row| draw(film, key, batch, row)).collect();
+        let column = |k: usize| draws.iter().map(|draw| draw.film[k]).collect::<Vec<_>>();
+        let [x, y, u, v] = [0, 1, 2, 3].map(column);
+        let indices: Vec<_> = draws.iter().map(|draw| draw.index).collect();
+        let keys: Vec<_> = draws.iter().map(|draw| draw.key).collect();
+        let batch = PixelBatch {
+            x: &x,
+            y: &y,
+            lens: [&u, &v],
+            indices: &indices,
+            keys: &keys,
+        };
+        let mut values = vec![[0.0; CHANNELS]; BATCH];
+        self.sample(&batch, paths, &mut values);
+        let scalar = |value: &[f32; CHANNELS]| -> f64 {
+            let weighted = value.iter().zip(&film.weights);
+            weighted.map(|(lane, w)| f64::from(*lane) * w).sum()
+        };
+        let nets = values.chunks(SAMPLES_OF_A_NET);
+        let mean = |net: &[_]| net.iter().map(scalar).sum::<f64>() / net.len() as f64;
+        nets.map(mean).collect()
+    }
+}
+
+struct Draw {
+    key: u64,
+    index: u32,
+    /// Place on the film, and numbers for the lens.
+    film: [f32; 4],
+}
+
+/// Row by row the samples of a net, the nets of a pixel, the pixels of a batch.
+fn draw(film: &Film, key: u64, batch: usize, row: usize) -> Draw {
+    let index = (row % SAMPLES_OF_A_NET) as u32;
+    let net = batch * PIXELS_OF_A_BATCH * NETS + row / SAMPLES_OF_A_NET;
+    let of_pixel = block::sample(key, (net / NETS) as u32, 0);
+    let corner = |k: usize, size: u32| (of_pixel[k] * size as f32).floor();
+    let key = hash::combine(key, net as u64);
+    let [x, y, u, v] = block::sample(key, index, 0);
+    Draw {
+        key,
+        index,
+        film: [corner(0, film.width) + x, corner(1, film.height) + y, u, v],
+    }
+}
