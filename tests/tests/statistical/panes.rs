@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use steradian::brdf::Pane;
 use steradian::material::Recipe;
-use steradian::scene::description::{LaneValues, SceneDescription, SpectrumMode};
+use steradian::scene::description::{LaneValues, Opacity, SceneDescription, SpectrumMode};
 use steradian::spectrum::{Beyond, Curve, VISIBLE};
 use steradian_tests::measuring::{measured, reading, rel_error, samples};
 use steradian_tests::scenes::*;
@@ -31,6 +31,25 @@ fn behind_pane(reflectance: f64) -> SceneDescription {
         ],
         [],
     )
+}
+
+/// Of a pane that is there in part α the sky comes through as 1 − α + α T; what the pane reflects is black.
+#[test]
+fn a_pane_may_be_there_in_part() {
+    let mut half = modelled("glass", pane(TRANSMITTANCE));
+    half.opacity = Some(Opacity {
+        factor: 0.5,
+        textures: vec![],
+        cutoff: None,
+    });
+    let shapes = [square(400.0, 1.0).made_of("glass"), square(400.0, -1.0)];
+    let mut scene = scene([half], shapes, [environment(3.0)]);
+    let along = radiance_along(p(0.0, 0.0, 0.0), v(1.0, 0.0, 1.0));
+    scene.sensors = vec![sensor("ray", along)];
+    let seen = reading(&measured(&scene, &samples(1 << 14)), "ray").estimate;
+    let through = 0.5 + 0.5 * through(0.5_f64.sqrt());
+    assert_agrees("ray", &seen, 3.0 * through, 0.0);
+    assert!(seen.std_error < 0.01 * seen.value, "{seen:?}");
 }
 
 /// E = I cosθ/r² T(θ). The cosine at the pane is that of the traced ray, which starts 1e-5 m off

@@ -33,7 +33,7 @@ pub trait Integrand: Sync {
         0.0
     }
 
-    /// How many paths a sample of a stream is made of, each as good as a sample by itself for finding out how much the stream varies.
+    /// How many paths a sample of a stream is made of: pilots count these, as paths that share little tell as much of how a stream varies as samples do.
     fn paths_of_a_sample(&self, _stream: usize) -> u32 {
         1
     }

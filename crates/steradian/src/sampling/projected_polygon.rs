@@ -68,7 +68,7 @@ impl ProjectedPolygon {
         (polygon.area > 0.0).then_some(polygon)
     }
 
-    /// The same, prepared for many samples: areas are tabulated, so that a sample need not iterate, where that moves no sample by more than 2⁻²⁴ of
+    /// The same, prepared for many samples: areas are tabulated, so that a sample need not iterate, where that moves samples by no more than some 2⁻²⁴ of
     /// the polygon. It takes as long as some dozens of samples.
     #[must_use]
     pub fn tabulated(mut self) -> Self {

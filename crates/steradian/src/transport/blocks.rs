@@ -15,7 +15,7 @@ use std::ops::Range;
 use super::branching::Branches;
 use super::branching::pilot::is_worth;
 use super::channels;
-use super::measure::pilot::{POINTS as PILOT_POINTS, SAMPLES as PILOT_SAMPLES};
+use super::measure::pilot::{POINTS as PILOT_POINTS, STEMS_OF_A_POINT};
 use super::measure::{Meters, Part, Shared, Stream, streams};
 use super::meters::{Context, Prepared};
 use super::run::{MeasureOptions, SimulationError, chosen_sensors};
@@ -70,7 +70,8 @@ pub struct Ended {
 
 /// Reads the sensors of a scene (all but cameras) and hands on the points of one block after the other, in order.
 ///
-/// A block is what [`measure`] would give if the scene had no other points, but for their numbers. If the observer ends the run, the block
+/// A block is what [`measure`] would give if the scene had no other points, but for their numbers and for how many [branches](super::branching) their paths have, which
+/// is found from points of the whole sensor. If the observer ends the run, the block
 /// in work is handed on as it is, and what is missing is told; so it is where a block fails after others were handed on.
 ///
 /// # Errors
@@ -239,8 +240,8 @@ impl<'r, 'a> Run<'r, 'a> {
         }
         let size = size(self.scene, self.chosen[position]);
         let plan = &self.options.plan;
-        let samples = plan.stop.samples.map(|n| n * size.points as u64);
-        if !is_worth(samples, PILOT_SAMPLES) {
+        let stems = size.points.min(PILOT_POINTS) * STEMS_OF_A_POINT;
+        if !is_worth(&plan.stop, size.points as u64, stems) {
             return Branches::ONE;
         }
         let mut parts: Vec<_> = spread(&Piece::whole(position, size), size)
@@ -257,7 +258,7 @@ impl<'r, 'a> Run<'r, 'a> {
             .stop
             .samples
             .map(|n| n as f64 / f64::from(plan.replicates));
-        self.meters(streams).suited_branches(net)
+        self.meters(streams).suited_branches(net, plan.threads)
     }
 
     fn part(&self, piece: &Piece) -> Part<'a> {

@@ -7,10 +7,10 @@
 //!
 //! which is greatest at k = √(V_p C_c / (V_c C_p)). Places on the film and directions at meters are stratified well, so that V_c is small: in the Cornell
 //! box a fiftieth of V_p, while a camera ray with its splats costs about as much as a path. Where pixels see patterns finer than themselves, V_c is
-//! great. A [`pilot`] finds both and decides; runs too short for one have [`BRANCHES`]. Everything after the first meeting branches, light samples too.
+//! great. A [`pilot`] finds both and decides. In runs too short for one, and in those that end by the clock, camera rays have [`BRANCHES`] and paths of meters one. Everything after the first meeting branches, light samples too.
 //!
 //! The mean over the branches is unbiased, and each of them is a path of its own as far as roulette is concerned. Branch j of sample i draws the
-//! numbers of index k·i + j, those for its first light too, so that the branches of all samples of a stream are one net.
+//! numbers of index k·i + j, those for its first light too, so that the branches of all samples of a stream are one net; beyond 2³⁰ samples of a replicate the numbers begin again.
 //!
 //! Source: J. Arvo & D. Kirk, *Particle transport and image synthesis* (SIGGRAPH 1990), §4 (splitting).
 
@@ -173,7 +173,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn branches_share_no_index() {
+    fn branches_of_a_replicate_share_no_index() {
         let mut indices: Vec<u32> = (0..64)
             .flat_map(|i| {
                 (0..BRANCHES).map(move |number| {

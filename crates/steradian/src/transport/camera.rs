@@ -114,24 +114,7 @@ impl PixelSampler for CameraSampler<'_> {
     }
 
     fn sample(&self, batch: &PixelBatch<'_>, paths: &mut Workspace, out: &mut [[f32; 4]]) {
-        paths.watch.start();
-        paths.watch.times.paths += batch.len() as u64 * u64::from(self.branches.count());
-        self.tracer.begin(paths, batch.len());
-        self.launch(batch, paths);
-        paths.watch.lap(Stage::Camera);
-        let candidates = self.tables().for_surfaces();
-        self.tracer
-            .follow_branches(paths, candidates, self.branches);
-        for (slot, lanes) in out.iter_mut().enumerate() {
-            if self.density.is_some() {
-                *lanes = self.channels(paths, slot);
-                continue;
-            }
-            for lane in 0..self.tables().lanes {
-                lanes[lane] = paths.gathered[lane * BATCH + slot];
-            }
-        }
-        paths.watch.lap(Stage::Camera);
+        self.sample_by(self.branches, batch, paths, out);
     }
 
     fn has_splats(&self) -> bool {
@@ -146,6 +129,33 @@ impl PixelSampler for CameraSampler<'_> {
 }
 
 impl CameraSampler<'_> {
+    /// The mean of these branches of a sample for each position.
+    fn sample_by(
+        &self,
+        branches: Branches,
+        batch: &PixelBatch<'_>,
+        paths: &mut Workspace,
+        out: &mut [[f32; 4]],
+    ) {
+        paths.watch.start();
+        paths.watch.times.paths += batch.len() as u64 * u64::from(branches.count());
+        self.tracer.begin(paths, batch.len());
+        self.launch(batch, paths);
+        paths.watch.lap(Stage::Camera);
+        let candidates = self.tables().for_surfaces();
+        self.tracer.follow_branches(paths, candidates, branches);
+        for (slot, lanes) in out.iter_mut().enumerate() {
+            if self.density.is_some() {
+                *lanes = self.channels(paths, slot);
+                continue;
+            }
+            for lane in 0..self.tables().lanes {
+                lanes[lane] = paths.gathered[lane * BATCH + slot];
+            }
+        }
+        paths.watch.lap(Stage::Camera);
+    }
+
     /// Channels of the film, from the path of a slot.
     fn channels(&self, paths: &Workspace, slot: usize) -> [f32; 4] {
         let (tables, waves) = (self.tables(), &paths.wavelengths[slot]);

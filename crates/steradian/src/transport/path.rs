@@ -239,7 +239,9 @@ impl Tracer<'_> {
         if all == 0.0 {
             return;
         }
-        if self.number_for(flights, i, hit) < share {
+        // What is left of the number that decided whether the surface is there.
+        let opacity = self.tables.opacity(side, || self.tables.site(hit));
+        if self.number_for(flights, i, hit) / opacity.unwrap_or(1.0) < share {
             for (lane, column) in flights.throughput.iter_mut().enumerate() {
                 column[i] *= passed[lane] / share;
             }

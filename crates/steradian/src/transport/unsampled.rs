@@ -3,11 +3,11 @@
 //! A light without extent is found by next-event estimation only, and a polished surface couples single directions only:
 //! the light that such a surface throws from such a light onto other surfaces, and its image there, are not sampled by readings. Pictures
 //! lack only what a polished surface shows to the camera of it: the image of the light, and the image of what the light was thrown on, as
-//! [light tracing](super::light_tracing) finds the rest. What is missing is told, never left out in silence. What a pane lets straight through is not among them, as next-event rays pass, except in the
+//! [light tracing](super::light_tracing) finds the rest, but for lights out of its reach. What is missing is told, never left out in silence. What a pane lets straight through is not among them, as next-event rays pass, except in the
 //! flux that leaves the pane itself, where no ray is left to pass.
 
 use crate::brdf::Scatter;
-use crate::geometry::{Direction, Vector};
+use crate::geometry::{Direction, Point, Vector};
 use crate::light::{self, Light};
 use crate::material::{ColorLanes, Material, MaterialId, Site};
 use crate::scene::Scene;
@@ -33,11 +33,27 @@ pub(super) fn unsampled_in_picture(scene: &Scene, camera: &Camera) -> Vec<String
     let is_seen = seen.any(|form| form.bounds().is_none_or(|bounds| camera.may_see(&bounds)));
     thrown(scene, |light, material| {
         let is_endless = matches!(light.kind, light::Kind::Directional { .. });
-        if is_endless && is_on_plane(scene, material) {
+        if is_out_of_reach(scene, light) || is_endless && is_on_plane(scene, material) {
             Some("")
         } else {
             is_seen.then_some(", as polished surfaces show it to the camera")
         }
+    })
+}
+
+/// Whether a light at a point is so far away that rays from there, in f32, would miss what they are sent to: a thousand diagonals of the scene.
+pub(super) fn is_out_of_reach(scene: &Scene, light: &Light) -> bool {
+    let position = match &light.kind {
+        light::Kind::Point(light) => light.position,
+        light::Kind::Spot(light) => light.position,
+        light::Kind::Luminaire(light) => light.position,
+        _ => return false,
+    };
+    let bounds = scene.surfaces().bounds();
+    bounds.is_some_and(|bounds| {
+        let reach = 1e3 * bounds.diagonal().to_metres();
+        let is_beyond = |center: Point| (position - center).length() > reach;
+        bounds.center().is_some_and(is_beyond)
     })
 }
 

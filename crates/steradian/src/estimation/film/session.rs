@@ -114,7 +114,10 @@ impl<S: PixelSampler> Session<'_, S> {
             return Ok(pilot);
         }
         let excess = self.excess(&pilot, &pilot);
-        let of_splats = self.excess_of_splats(&pilot, effort)?;
+        let Some(of_splats) = self.excess_of_splats(&pilot, effort)? else {
+            pilot.conclude(false);
+            return Ok(pilot);
+        };
         let effort = self.effort(&excess, &of_splats);
         let worst = excess
             .iter()
@@ -148,17 +151,18 @@ impl<S: PixelSampler> Session<'_, S> {
     }
 
     /// The part of a pilot's excess that comes of samples that choose their own places: its passes again without the others.
+    /// `None` if they did not come to an end.
     fn excess_of_splats(
         &mut self,
         pilot: &Exposure,
         effort: Effort,
-    ) -> Result<Vec<f64>, EstimationError> {
+    ) -> Result<Option<Vec<f64>>, EstimationError> {
         if effort.splats == 0 {
-            return Ok(vec![0.0; self.tiles.len()]);
+            return Ok(Some(vec![0.0; self.tiles.len()]));
         }
         let lengths = Vec::new();
-        let (splats, _) = self.expose(Phase::Pilot, &Effort { lengths, ..effort }, None)?;
-        Ok(self.excess(pilot, &splats))
+        let (splats, flow) = self.expose(Phase::Pilot, &Effort { lengths, ..effort }, None)?;
+        Ok(flow.is_continue().then(|| self.excess(pilot, &splats)))
     }
 
     /// What should meet the tolerance by what a pilot found: samples that choose their own places so many that they use up at most half of

@@ -7,8 +7,8 @@
 //!
 //! whose last term vanishes where the density is linear. From the root without it two steps of Newton's method remain.
 //!
-//! The error is greatest half-way to leading order, h⁴ρ‴/384, and measured there: a table is only made if it is below 2⁻²⁴ of the sector everywhere,
-//! the distance of two numbers that a sampler tells apart. It moves no sample by more of the sector's area than that.
+//! The cubic's error is greatest half-way to leading order, h⁴ρ‴/384. What the whole inverse moves a sample by is measured there and half-way from there to the
+//! knots: a table is only made if it is below 2⁻²⁴ of the sector's area in all these places, the distance of two numbers that a sampler tells apart.
 
 use super::{Arc, Sector};
 
@@ -41,7 +41,7 @@ impl Table {
         let area = sector.area_up_to(sector.to);
         SIZES.iter().find_map(|size| {
             let table = Self::of_size(sector, inner, *size);
-            table.holds(sector, area).then_some(table)
+            table.holds(sector, inner, area).then_some(table)
         })
     }
 
@@ -59,11 +59,16 @@ impl Table {
         }
     }
 
-    fn holds(&self, sector: &Sector, area: f64) -> bool {
+    /// Whether the inverse leads back from a quarter, the middle and three quarters of every interval.
+    fn holds(&self, sector: &Sector, inner: &Arc, area: f64) -> bool {
         let width = 1.0 / self.intervals.len() as f64;
         self.intervals.iter().enumerate().all(|(k, interval)| {
-            let middle = sector.area_up_to(sector.at((k as f64 + 0.5) * width));
-            interval.from < interval.to && (interval.half_way() - middle).abs() <= TOLERANCE * area
+            let leads_back = |s: f64| {
+                let e = sector.at((k as f64 + s) * width);
+                let off = interval.inverse(sector.area_up_to(e)) - s;
+                off.abs() * sector.density(inner, e).abs() * width <= TOLERANCE * area
+            };
+            interval.from < interval.to && [0.25, 0.5, 0.75].into_iter().all(leads_back)
         })
     }
 
@@ -86,12 +91,6 @@ impl Interval {
             scale,
             slopes: [p * scale, q * scale],
         }
-    }
-
-    /// The cubic half-way.
-    fn half_way(&self) -> f64 {
-        let [p, q] = self.slopes;
-        0.5 * (self.from + self.to) + 0.125 * (p - q) * (self.to - self.from)
     }
 
     /// Where the cubic is `wanted`, from 0 to 1.

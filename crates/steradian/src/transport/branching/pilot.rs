@@ -13,7 +13,8 @@
 //!
 //! Source: D. Mitchell, *Consequences of stratified sampling in graphics* (SIGGRAPH 1996).
 
-use super::BRANCHES;
+use super::{BRANCHES, Branches};
+use crate::estimation::Stopping;
 
 /// A pilot is taken where it is at most this part of a run.
 const LEAST_PART: u64 = 64;
@@ -27,9 +28,35 @@ const STEM: f64 = 2.0;
 /// samples to choose a number of.
 const CLEARLY: f64 = 0.95;
 
-/// Whether a run of so many samples, or as many as it takes, is worth a pilot of so many.
-pub(in super::super) fn is_worth(samples: Option<u64>, pilot: usize) -> bool {
-    samples.is_none_or(|samples| samples >= LEAST_PART * pilot as u64)
+/// Whether a run of so many points or pixels is worth a pilot of so many stems: one that takes enough samples, or as many as a tolerance needs. A run that ends
+/// by the clock is not, as pilots are not timed.
+pub(in super::super) fn is_worth(stop: &Stopping, points: u64, pilot: usize) -> bool {
+    match stop.samples {
+        Some(samples) => samples.saturating_mul(points) >= LEAST_PART * pilot as u64,
+        None => stop.time.is_none(),
+    }
+}
+
+/// The means of the nets of each branch, and the rays of all, a thread for each branch if there are several.
+pub(in super::super) fn of_each_branch(
+    threads: usize,
+    follow: impl Fn(Branches) -> (Vec<f64>, u64) + Sync,
+) -> ([Vec<f64>; BRANCHES as usize], u64) {
+    let all = [0, 1, 2, 3].map(Branches::only);
+    let found = if threads == 1 {
+        all.map(&follow)
+    } else {
+        std::thread::scope(|scope| {
+            let follow = &follow;
+            let threads = all.map(|branch| scope.spawn(move || follow(branch)));
+            threads.map(|thread| match thread.join() {
+                Ok(found) => found,
+                Err(panic) => std::panic::resume_unwind(panic),
+            })
+        })
+    };
+    let rays = found.iter().map(|(_, rays)| rays).sum();
+    (found.map(|(means, _)| means), rays)
 }
 
 /// V_c and V_p, relative and of a net.
@@ -124,8 +151,20 @@ mod tests {
     }
 
     #[test]
-    fn short_runs_have_no_pilot() {
-        assert!(is_worth(None, 1000) && is_worth(Some(64_000), 1000));
-        assert!(!is_worth(Some(63_999), 1000));
+    fn short_and_timed_runs_have_no_pilot() {
+        let samples = |number| is_worth(&Stopping::at_samples(number), 10, 1000);
+        assert!(samples(6_400) && samples(u64::MAX) && !samples(6_399));
+        assert!(is_worth(&Stopping::at_rel_error(0.01), 1, 1000));
+        let time = std::time::Duration::from_secs(1);
+        assert!(!is_worth(&Stopping::at_time(time), 1, 1000));
+    }
+
+    #[test]
+    fn branches_are_followed_alike_on_one_thread_and_on_several() {
+        let follow = |branch: Branches| (vec![f64::from(branch.first)], 10);
+        let expected = ([0.0, 1.0, 2.0, 3.0].map(|number| vec![number]), 40);
+        for threads in [1, 2] {
+            assert_eq!(of_each_branch(threads, follow), expected);
+        }
     }
 }

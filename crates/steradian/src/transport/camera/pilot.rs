@@ -1,11 +1,11 @@
 //! A pilot of a picture: how many branches its camera rays have.
 
 use super::super::branching::Branches;
-use super::super::branching::pilot::{Variances, is_worth};
+use super::super::branching::pilot::{Variances, is_worth, of_each_branch};
 use super::super::columns::{BATCH, Workspace};
 use super::CameraSampler;
 use crate::estimation::Plan;
-use crate::estimation::film::{CHANNELS, Film, PixelBatch, PixelSampler};
+use crate::estimation::film::{CHANNELS, Film, PixelBatch};
 use crate::sampling::{block, hash};
 
 /// Pixels spread over the film: many, as few of them may have all the variance.
@@ -23,31 +23,36 @@ impl<'a> CameraSampler<'a> {
     /// The same with as many branches as suit the picture, if it is worth finding out.
     pub fn with_suited_branches(mut self, film: &Film, plan: &Plan) -> Self {
         let pixels = u64::from(film.width) * u64::from(film.height);
-        let samples = plan.stop.samples.map(|samples| samples * pixels);
-        if self.branches != Branches::ONE && is_worth(samples, STEMS) {
+        if self.branches != Branches::ONE && is_worth(&plan.stop, pixels, STEMS) {
             let of_pass = |samples| samples as f64 / f64::from(plan.replicates);
             let net = plan.stop.samples.map_or(USUAL_NET, of_pass);
-            self.branches = self.suited_branches(film, net / SAMPLES_OF_A_NET as f64);
+            let longer = net / SAMPLES_OF_A_NET as f64;
+            self.branches = self.suited_branches(film, longer, plan.threads);
         }
         self
     }
 
     /// They are the same for every seed.
-    fn suited_branches(&mut self, film: &Film, longer: f64) -> Branches {
-        let mut paths = Workspace::default();
+    fn suited_branches(&self, film: &Film, longer: f64, threads: usize) -> Branches {
         let key = hash::combine(film.key, KEY);
-        let means = [0, 1, 2, 3].map(|number| {
-            self.branches = Branches::only(number);
+        let (means, rays) = of_each_branch(threads, |branches| {
+            let mut paths = Workspace::default();
             let batches = 0..PIXELS / PIXELS_OF_A_BATCH;
-            let batches = batches.map(|batch| self.means(film, (key, batch), &mut paths));
-            batches.flatten().collect::<Vec<_>>()
+            let means = batches.map(|batch| self.means(film, (key, batch), (branches, &mut paths)));
+            let means = means.collect::<Vec<_>>().concat();
+            (means, paths.watch.times.rays)
         });
-        let rays = paths.watch.times.rays as f64 / (means.len() * STEMS) as f64 - 1.0;
-        Branches::all(Variances::of(&means, NETS).best(rays, longer))
+        let rays = rays as f64 / (means.len() * STEMS) as f64 - 1.0;
+        Branches::all(Variances::of(&means, NETS).best(rays.max(0.0), longer))
     }
 
     /// Means of the nets of some pixels.
-    fn means(&self, film: &Film, (key, batch): (u64, usize), paths: &mut Workspace) -> Vec<f64> {
+    fn means(
+        &self,
+        film: &Film,
+        (key, batch): (u64, usize),
+        (branches, paths): (Branches, &mut Workspace),
+    ) -> Vec<f64> {
         let draws: Vec<_> = (0..BATCH).map(|row| draw(film, key, batch, row)).collect();
         let column = |k: usize| draws.iter().map(|draw| draw.film[k]).collect::<Vec<_>>();
         let [x, y, u, v] = [0, 1, 2, 3].map(column);
@@ -61,7 +66,7 @@ impl<'a> CameraSampler<'a> {
             keys: &keys,
         };
         let mut values = vec![[0.0; CHANNELS]; BATCH];
-        self.sample(&batch, paths, &mut values);
+        self.sample_by(branches, &batch, paths, &mut values);
         let scalar = |value: &[f32; CHANNELS]| -> f64 {
             let weighted = value.iter().zip(&film.weights);
             weighted.map(|(lane, w)| f64::from(*lane) * w).sum()

@@ -19,14 +19,14 @@ use std::f64::consts::PI;
 
 use glam::Vec3;
 
-use super::ball::Ball;
-use super::bundle::Bundle;
+use super::ball::{Ball, Obstacles};
+use super::bundle::{Bundle, Target};
 use crate::material::Site;
 use crate::sampling::discrete::Discrete;
 use crate::shape::ShapeId;
 use crate::spectrum::Wavelengths;
 use crate::transport::tables::{Emitter, EmitterShape, Lanes4, Tables};
-use crate::transport::unsampled::polished_shapes;
+use crate::transport::unsampled::{is_out_of_reach, polished_shapes};
 
 /// More pairs of lights and shapes than this are not told apart: each light is sent to all shapes at once.
 const PAIRS: usize = 1 << 16;
@@ -59,20 +59,24 @@ pub(super) struct Start {
 impl Aims {
     /// `None` if there is no such light or nothing polished that it could be sent to.
     pub fn new(tables: &Tables<'_>) -> Option<Self> {
+        let surfaces = tables.scene.surfaces();
+        let obstacles = Obstacles::new(surfaces);
         let lamps = tables.extended..tables.emitters.len();
         let targets = targets(tables, lamps.len());
         let of_lamp = |emitter: usize| {
-            let aim = move |(target, ball): &(Option<ShapeId>, Option<Ball>)| {
-                let light = &tables.scene.lights()[tables.emitters[emitter].light];
-                let bundle = Bundle::new(tables.scene.surfaces(), light, ball.as_ref())?;
-                let target = *target;
+            let light = &tables.scene.lights()[tables.emitters[emitter].light];
+            let is_near = !is_out_of_reach(tables.scene, light);
+            let obstacles = &obstacles;
+            let aim = move |target: &Target| {
+                let bundle = Bundle::new((surfaces, obstacles), light, target)?;
+                let target = target.shape;
                 Some(Aim {
                     emitter,
                     target,
                     bundle,
                 })
             };
-            targets.iter().filter_map(aim)
+            targets.iter().filter(move |_| is_near).filter_map(aim)
         };
         let aims: Vec<_> = lamps.flat_map(of_lamp).collect();
         let weights: Vec<_> = aims.iter().map(|aim| aim.weight(tables)).collect();
@@ -108,15 +112,28 @@ impl Aims {
 }
 
 /// Polished shapes with balls around them, or all of them at once.
-fn targets(tables: &Tables<'_>, lamps: usize) -> Vec<(Option<ShapeId>, Option<Ball>)> {
+fn targets(tables: &Tables<'_>, lamps: usize) -> Vec<Target> {
     let surfaces = tables.scene.surfaces();
     let shapes = polished_shapes(tables.scene);
     let ball = |id: &ShapeId| Ball::around(&surfaces.shape(*id).form, surfaces.clearance());
-    if shapes.len() * lamps > PAIRS {
-        return vec![(None, Ball::around_all(shapes.iter().map(ball)))];
+    let target = |id: &ShapeId| {
+        let (shape, ball) = (Some(*id), ball(id));
+        let has_planes = ball.is_none();
+        Target {
+            shape,
+            ball,
+            has_planes,
+        }
+    };
+    if shapes.len() * lamps <= PAIRS {
+        return shapes.iter().map(target).collect();
     }
-    let targets = shapes.iter().map(|id| (Some(*id), ball(id)));
-    targets.collect()
+    let balls: Vec<_> = shapes.iter().filter_map(ball).collect();
+    vec![Target {
+        shape: None,
+        ball: Ball::around_all(&balls),
+        has_planes: balls.len() < shapes.len(),
+    }]
 }
 
 impl Aim {

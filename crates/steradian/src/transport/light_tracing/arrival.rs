@@ -131,7 +131,7 @@ impl<'a> Arrival<'a> {
         let turned = (here.viewer.z() * there.cos_leaving).abs();
         let own = (self.cos_arriving() * wi.z()).abs();
         let scale = here.brdf.radiance_scale(here.viewer, wi);
-        (there.normal == here.normal).then_some(turned / (own * scale))
+        (there.normal == here.normal && own > 0.0).then_some(turned / (own * scale))
     }
 
     /// What a path from a viewer in this direction would meet.
@@ -198,7 +198,7 @@ impl Seen<'_> {
     fn intensity(&self, arrival: &Arrival<'_>) -> Option<Lanes4> {
         let through = (self.light.z() < 0.0) != (self.viewer.z() < 0.0);
         let value = self.brdf.evaluate(self.viewer, self.light);
-        if through != self.is_beyond || value.is_zero() {
+        if through != self.is_beyond || value.is_zero() || arrival.cos_arriving() == 0.0 {
             return None;
         }
         let turned = self.light.z() * self.cos_leaving / arrival.cos_arriving();

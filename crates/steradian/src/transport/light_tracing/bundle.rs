@@ -2,11 +2,21 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::ball::Ball;
+use super::ball::{Ball, Obstacles};
 use crate::geometry::{Direction, Frame, Point, Vector};
 use crate::light::{Beam, Kind, Light, Outlet};
 use crate::sampling::warp;
-use crate::shape::Surfaces;
+use crate::shape::{ShapeId, Surfaces};
+
+/// What rays are sent to.
+pub(super) struct Target {
+    /// None: whatever is polished.
+    pub shape: Option<ShapeId>,
+    /// Around all of it that is bounded.
+    pub ball: Option<Ball>,
+    /// Whether there are planes, of which only light at a point finds the polish.
+    pub has_planes: bool,
+}
 
 /// Rays that are drawn evenly by solid angle or by area.
 pub(super) enum Bundle {
@@ -31,9 +41,14 @@ pub(super) struct Shaft {
 
 impl Bundle {
     /// `None` where the light sends nothing to the ball, and for parallel light without one.
-    pub fn new(surfaces: &Surfaces, light: &Light, ball: Option<&Ball>) -> Option<Self> {
+    pub fn new(
+        (surfaces, obstacles): (&Surfaces, &Obstacles<'_>),
+        light: &Light,
+        target: &Target,
+    ) -> Option<Self> {
         let from = |position: Point, start: Point| {
             let apex = surfaces.to_kernel(start);
+            let ball = target.ball.filter(|_| !target.has_planes);
             Cone::around(apex, ball.map(|ball| (ball.center - position, ball.radius)))
         };
         match &light.kind {
@@ -47,7 +62,9 @@ impl Bundle {
                 Outlet::Surface { .. } => None,
             },
             Kind::Directional { direction, .. } => {
-                Some(Self::Shaft(Shaft::new(surfaces, *direction, ball?)))
+                let ball = target.ball.as_ref()?;
+                let reach = obstacles.upstream(ball, *direction) + surfaces.clearance();
+                Some(Self::Shaft(Shaft::new(surfaces, *direction, (ball, reach))))
             }
             _ => None,
         }
@@ -115,11 +132,8 @@ impl Cone {
 const ROUNDING: f64 = 1e-6;
 
 impl Shaft {
-    /// Through a ball, from before everything that may stop it.
-    fn new(surfaces: &Surfaces, direction: Direction, ball: &Ball) -> Self {
-        let forms = surfaces.shapes().iter().map(|shape| &shape.form);
-        let reach = forms.map(|form| ball.upstream(form, direction));
-        let reach = reach.fold(ball.radius, f64::max) + surfaces.clearance();
+    /// Through a ball, from so far before its middle.
+    fn new(surfaces: &Surfaces, direction: Direction, (ball, reach): (&Ball, f64)) -> Self {
         Self {
             middle: ball.center - surfaces.origin() - direction * (reach + ball.radius),
             frame: Frame::from_normal(direction),

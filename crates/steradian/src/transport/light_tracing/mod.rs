@@ -151,7 +151,7 @@ impl LightTracer<'_> {
     ) {
         let side = &self.tables.sides[hit.side as usize];
         let [reflected, passed] = self.tables.pane(side, hit, waves);
-        let lanes = || particle.throughput.iter();
+        let lanes = || particle.throughput.iter().take(self.tables.lanes);
         let all: f32 = lanes().sum();
         let left: f32 = lanes()
             .zip(passed)
@@ -161,7 +161,9 @@ impl LightTracer<'_> {
         if all == 0.0 {
             return;
         }
-        if self.number_for(&particle, hit) < share {
+        // What is left of the number that decided whether the surface is there.
+        let opacity = self.tables.opacity(side, || self.tables.site(hit));
+        if self.number_for(&particle, hit) / opacity.unwrap_or(1.0) < share {
             let weight = passed.map(|lane| lane / share);
             batch.flying.push(particle.weighed(weight).passed(hit));
         } else if self.is_first_aim(&particle, hit) {
@@ -214,6 +216,7 @@ impl LightTracer<'_> {
             return None;
         }
         let lanes = particle.throughput.iter().zip(departure.weight);
+        let lanes = lanes.take(self.tables.lanes);
         let greatest = lanes
             .map(|(part, weight)| part * weight)
             .fold(0.0, f32::max);

@@ -1,10 +1,10 @@
 //! A pilot of a sensor: how many branches its paths have.
 
 use super::super::branching::Branches;
-use super::super::branching::pilot::Variances;
+use super::super::branching::pilot::{Variances, of_each_branch};
 use super::super::columns::BATCH;
 use super::{MeterWorkspace, Meters};
-use crate::estimation::Run;
+use crate::estimation::{Integrand, Run};
 use crate::sampling::hash;
 
 /// Points of a sensor that are asked, spread evenly.
@@ -13,28 +13,25 @@ const NETS: usize = 8;
 const SAMPLES_OF_A_NET: usize = 32;
 /// Samples of a point in a replicate where that is not told.
 const USUAL_NET: f64 = 256.0;
-/// Stems of a pilot.
-pub(in super::super) const SAMPLES: usize = POINTS * NETS * SAMPLES_OF_A_NET;
-const STREAMS_OF_A_BATCH: usize = BATCH / (NETS * SAMPLES_OF_A_NET);
+/// Stems of a point.
+pub(in super::super) const STEMS_OF_A_POINT: usize = NETS * SAMPLES_OF_A_NET;
+const STREAMS_OF_A_BATCH: usize = BATCH / STEMS_OF_A_POINT;
 /// Tells the numbers of a pilot from those of the readings.
 const KEY: u64 = 0x7069_6c6f_7421;
 
 impl Meters<'_> {
     /// As many branches as suit these streams in nets of so many samples, the same for every seed.
-    pub fn suited_branches(&self, net: Option<f64>) -> Branches {
-        let mut workspace = MeterWorkspace {
-            columns: vec![0.0; self.columns],
-            ..MeterWorkspace::default()
-        };
-        let means = [0, 1, 2, 3].map(|number| {
+    pub fn suited_branches(&self, net: Option<f64>, threads: usize) -> Branches {
+        let (means, rays) = of_each_branch(threads, |branches| {
+            let mut workspace = self.new_workspace();
             let first = (0..self.streams.len()).step_by(STREAMS_OF_A_BATCH);
             let nets = first.map(|first| self.nets(first));
-            let branches = Branches::only(number);
             let means = nets.map(|runs| self.means(&runs, branches, &mut workspace));
-            means.collect::<Vec<_>>().concat()
+            let means = means.collect::<Vec<_>>().concat();
+            (means, workspace.paths.watch.times.rays)
         });
-        let stems = means.len() * self.streams.len() * NETS * SAMPLES_OF_A_NET;
-        let rays = workspace.paths.watch.times.rays as f64 / stems as f64 - 1.0;
+        let stems = means.len() * self.streams.len() * STEMS_OF_A_POINT;
+        let rays = rays as f64 / stems as f64 - 1.0;
         let longer = net.unwrap_or(USUAL_NET) / SAMPLES_OF_A_NET as f64;
         Branches::all(Variances::of(&means, NETS).best(rays.max(0.0), longer))
     }
