@@ -70,7 +70,7 @@ pub struct Ended {
 
 /// Reads the sensors of a scene (all but cameras) and hands on the points of one block after the other, in order.
 ///
-/// A block is what [`measure`] would give if the scene had no other points, but for their numbers and for how many [branches](super::branching) their paths have, which
+/// A block is what [`measure`] would give if the scene had no other points, but for their numbers and for how many branches their paths have, which
 /// is found from points of the whole sensor. If the observer ends the run, the block
 /// in work is handed on as it is, and what is missing is told; so it is where a block fails after others were handed on.
 ///
