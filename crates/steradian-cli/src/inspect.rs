@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use steradian::quantity::Length;
 use steradian::scene::Scene;
-use steradian::transport::unsampled;
+use steradian::transport::unsampled_by_any;
 use steradian_io::files::DiskFiles;
 use steradian_io::import::bsdf::is_measured;
 use steradian_io::import::photometry;
@@ -130,7 +130,7 @@ impl<'a> Inspection<'a> {
             sheet_edges: health.boundary.iter().filter(|edge| edge.flat).count(),
             pieces: health.pieces,
             triangles,
-            unsampled: unsampled(scene),
+            unsampled: unsampled_by_any(scene),
         }
     }
 

@@ -47,6 +47,54 @@ fn a_closed_mesh_is_sound() {
     steradian(&["inspect", &file, "--strict"]).fine();
 }
 
+/// A mirror throws light of a point on the floor: pictures have it, readings do not.
+#[test]
+fn what_is_not_sampled_depends_on_the_sensors() {
+    let scene = r#"
+        [materials.silver]
+        model = "mirror"
+        reflectance = 0.9
+
+        [[shapes]]
+        name = "mirror behind the camera"
+        kind = "rectangle"
+        origin = [-1, -2, 0]
+        edges = [[0, 0, 2], [2, 0, 0]]
+        material = "silver"
+
+        [[lights]]
+        name = "lamp"
+        kind = "point"
+        position = [0, 0, 1]
+        intensity = "1 W/sr"
+
+        [[sensors]]
+        name = "camera"
+        kind = "camera"
+        position = [0, -1, 1]
+        look_at = [0, 5, 0]
+        fov = "40 deg"
+        resolution = [8, 8]
+    "#;
+    let meter = r#"
+        [[sensors]]
+        name = "meter"
+        kind = "irradiance"
+        points = [[0, 1, 0, 0, -1, 0]]
+    "#;
+    let folder = Folder::new();
+    let not_sampled = |name: &str, text: &str| {
+        let file = folder.write(name, text);
+        json(&file)["unsampled"].as_array().unwrap().clone()
+    };
+    assert_eq!(not_sampled("camera.toml", scene), [] as [Value; 0]);
+    let classes = not_sampled("both.toml", &format!("{scene}{meter}"));
+    assert_eq!(
+        classes,
+        ["light of `lamp` reflected by mirrors of material `silver`"]
+    );
+}
+
 /// The face x = 1 is missing.
 #[test]
 fn a_hole_is_told_with_its_place() {

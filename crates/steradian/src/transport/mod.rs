@@ -42,4 +42,4 @@ mod unsampled;
 pub use blocks::{Ended, POINTS_OF_A_BLOCK, measure, measure_in_blocks};
 pub use profile::{Stage, StageTimes, profile};
 pub use run::{MeasureOptions, Picture, RenderOptions, SimulationError, render};
-pub use unsampled::unsampled;
+pub use unsampled::{unsampled, unsampled_by_any};

@@ -26,6 +26,28 @@ pub fn unsampled(scene: &Scene) -> Vec<String> {
     classes
 }
 
+/// One sentence for each class that is missing from any of a scene's sensors; from readings if it has none.
+pub fn unsampled_by_any(scene: &Scene) -> Vec<String> {
+    let cameras = scene
+        .sensors()
+        .iter()
+        .filter_map(|sensor| match &sensor.kind {
+            Kind::Camera(camera) => Some(camera),
+            _ => None,
+        });
+    let has_cameras_only = cameras.clone().count() == scene.sensors().len();
+    let mut classes = match has_cameras_only && !scene.sensors().is_empty() {
+        true => vec![],
+        false => unsampled(scene),
+    };
+    for class in cameras.flat_map(|camera| unsampled_in_picture(scene, camera)) {
+        if !classes.contains(&class) {
+            classes.push(class);
+        }
+    }
+    classes
+}
+
 /// One sentence for each class that is missing from a picture, which has what [light tracing](super::light_tracing) finds.
 pub(super) fn unsampled_in_picture(scene: &Scene, camera: &Camera) -> Vec<String> {
     let seen = polished_shapes(scene);
