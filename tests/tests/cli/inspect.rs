@@ -91,7 +91,9 @@ fn what_is_not_sampled_depends_on_the_sensors() {
     let classes = not_sampled("both.toml", &format!("{scene}{meter}"));
     assert_eq!(
         classes,
-        ["light of `lamp` reflected by mirrors of material `silver`"]
+        [
+            "light of `lamp` reflected by mirrors of material `silver`, straight to points at which it is measured"
+        ]
     );
 }
 

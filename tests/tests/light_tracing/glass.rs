@@ -3,14 +3,36 @@
 use std::f64::consts::PI;
 
 use steradian::brdf::fresnel;
+use steradian::geometry::Point;
 use steradian::material::Recipe;
 use steradian::scene::description::LaneValues;
 use steradian_tests::{assert_agrees, assert_same};
 
 use super::*;
 
+/// Parallel light of 1000 W/m² on two faces of smooth glass.
+pub struct Slab {
+    cosine: f64,
+}
+
+pub const SLAB: Slab = Slab {
+    // 1/√1.25.
+    cosine: 0.894_427_190_999_915_9,
+};
+
+impl Slab {
+    /// Below it E cosθ (1 − R)² t/(1 − R² t²) with t = exp(−a d/cosθ_t), whatever n²: Fresnel's equations at both faces, and their series.
+    pub fn irradiance(&self, absorption: f64, thickness: f64) -> f64 {
+        let reflectance = fresnel::dielectric(self.cosine, 1.5).mean();
+        let refracted = fresnel::refracted_cosine(self.cosine, 1.5).expect("into glass");
+        let along = libm::exp(-absorption * thickness / refracted);
+        let through = (1.0 - reflectance).powi(2) * along / (1.0 - (reflectance * along).powi(2));
+        1000.0 * self.cosine * through
+    }
+}
+
 /// Two faces of smooth glass with a medium that absorbs between them.
-fn slab(absorption: f64) -> (SceneDescription, f64) {
+pub fn slab(absorption: f64) -> (SceneDescription, f64) {
     let mut glass = modelled("glass", dielectric(1.5, None));
     glass.media.inside = Some(LaneValues::Uniform(absorption));
     let thickness = 0.1;
@@ -26,18 +48,12 @@ fn slab(absorption: f64) -> (SceneDescription, f64) {
     (scene, thickness)
 }
 
-/// Below a slab the irradiance is E cosθ (1 − R)² t/(1 − R² t²) with t = exp(−a d/cosθ_t), whatever n²: Fresnel's equations at both
-/// faces, and their series. What the paper sends back to the slab adds less than its reflectance, 1e-3.
+/// What the paper sends back to the slab adds less than its reflectance, 1e-3.
 #[test]
 fn a_slab_of_glass_lets_through_what_fresnel_says() {
     for absorption in [0.0, 4.0] {
         let (scene, thickness) = slab(absorption);
-        let cosine = 1.0 / 1.25_f64.sqrt();
-        let reflectance = fresnel::dielectric(cosine, 1.5).mean();
-        let refracted = fresnel::refracted_cosine(cosine, 1.5).unwrap();
-        let along = libm::exp(-absorption * thickness / refracted);
-        let through = (1.0 - reflectance).powi(2) * along / (1.0 - (reflectance * along).powi(2));
-        let expected = 1000.0 * cosine * through * 1e-3 / PI;
+        let expected = SLAB.irradiance(absorption, thickness) * 1e-3 / PI;
         let seen = mean(&picture(&scene, &options(64, None)));
         assert_agrees("slab", &seen, expected, 1e-3 * expected);
         assert!(seen.std_error < 0.02 * expected, "{seen:?}");
@@ -73,6 +89,16 @@ fn glass_around_a_lamp_keeps_all_of_its_light() {
     assert!(seen.std_error < 0.01 * IN_GLASS, "{seen:?}");
 }
 
+/// Adds a lamp of 100 W: a ball, or a point.
+fn add_lamp(scene: &mut SceneDescription, place: Point, radius: f64) {
+    if radius > 0.0 {
+        let emitted = radiance(100.0 / (4.0 * PI * PI * radius * radius));
+        scene.shapes.push(ball(place, radius).emitting(emitted));
+    } else {
+        scene.lights.push(point_light(place, flux(100.0)));
+    }
+}
+
 /// A ball of glass under a lamp, and a camera that sees a part of the floor, with the caustic, or of a wall, which has it by way of the
 /// floor only.
 pub fn glass_ball(lamp_radius: f64, target: [f64; 3]) -> SceneDescription {
@@ -88,12 +114,7 @@ pub fn glass_ball(lamp_radius: f64, target: [f64; 3]) -> SceneDescription {
         modelled("glass", dielectric(1.5, None)),
     ];
     let mut scene = scene(materials, shapes, []);
-    if lamp_radius > 0.0 {
-        let emitted = radiance(100.0 / (4.0 * PI * PI * lamp_radius * lamp_radius));
-        scene.shapes.push(ball(lamp, lamp_radius).emitting(emitted));
-    } else {
-        scene.lights.push(point_light(lamp, flux(100.0)));
-    }
+    add_lamp(&mut scene, lamp, lamp_radius);
     let eye = camera([0.5, 0.6, 0.2], target, pinhole(40.0));
     scene.sensors = vec![sensor("eye", eye)];
     scene
@@ -135,12 +156,7 @@ fn glossy(lamp_radius: f64) -> SceneDescription {
         modelled("glass", dielectric(1.05, None)),
     ];
     let mut scene = scene(materials, shapes, []);
-    if lamp_radius > 0.0 {
-        let emitted = radiance(100.0 / (4.0 * PI * PI * lamp_radius * lamp_radius));
-        scene.shapes.push(ball(lamp, lamp_radius).emitting(emitted));
-    } else {
-        scene.lights.push(point_light(lamp, flux(100.0)));
-    }
+    add_lamp(&mut scene, lamp, lamp_radius);
     let eye = camera([-0.6, 0.2, 0.35], [0.4, 0.0, 0.0], pinhole(40.0));
     scene.sensors = vec![sensor("eye", eye)];
     scene

@@ -1,9 +1,10 @@
-//! What polished surfaces throw from lights without extent, in pictures: against closed forms and against lamps that cameras find.
+//! What polished surfaces throw from lights without extent, in pictures and readings: against closed forms and against lamps that cameras find.
 //!
 //! An agreement within [`LARGEST_SCORE`](steradian_tests::LARGEST_SCORE) standard errors of 16 passes fails by chance with probability 1.2e-3;
 //! seeds are fixed.
 
 mod glass;
+mod meters;
 mod mirrors;
 mod normals;
 mod pictures;

@@ -103,6 +103,33 @@ fn light_is_kept_whatever_it_falls_on() {
     }
 }
 
+const POLISHED: [&str; 8] = [
+    r#"model = "mirror", reflectance = 0.9"#,
+    r#"model = "conductor", eta = 0.2, k = 3"#,
+    r#"model = "dielectric", ior = 1.5"#,
+    r#"model = "dielectric", ior = 1.5, opacity = 0.5"#,
+    r#"model = "plastic", diffuse = 0.5"#,
+    r#"model = "pane", ior = 1.5, transmittance = 0.7"#,
+    r#"model = "pane", ior = 1.5, transmittance = 0.7, opacity = 0.5"#,
+    r#"model = "mirror", reflectance = 0.9, opacity = 0.4"#,
+];
+
+/// Fluxes have what polished surfaces throw from lights without extent, and lack nothing.
+#[test]
+fn light_without_extent_is_kept_by_polished_things() {
+    let lights = [
+        r#"kind = "point"; flux = "10 lm"; position = [0, 0, 1]"#,
+        r#"kind = "spot"; direction = [0.3, 0, -1]; cutoff = "40 deg"; flux = "10 lm"; position = [0, 0, 1]"#,
+        r#"kind = "directional"; direction = [0.3, 0.2, -1]; irradiance = "4 lx""#,
+    ];
+    for (light, material) in lights.iter().flat_map(|l| POLISHED.map(|m| (*l, m))) {
+        let keys = light.replace("; ", "\n");
+        let text = format!("{STUDIO}\n[[lights]]\n{keys}\n[materials]\nit = {{ {material} }}\n");
+        let found = balance(&text, &samples(1 << 12));
+        assert_holds(&format!("{light} on {material}"), &found);
+    }
+}
+
 /// The studio with diffuse things in it and one light, whose keys are parted by semicolons.
 fn lit(light: &str) -> String {
     let keys = light.replace("; ", "\n");

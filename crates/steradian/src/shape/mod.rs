@@ -10,6 +10,7 @@
 //! | p(x) = 1/A | density of uniform area sampling | 1/m² |
 
 mod coordinates;
+mod crossing;
 mod disc;
 mod enclosure;
 mod form;
@@ -22,6 +23,7 @@ mod solid;
 mod sphere;
 mod surfaces;
 
+pub use crossing::{Crossing, Ray};
 pub use disc::Disc;
 pub use enclosure::{Enclosure, Side};
 pub use form::{AreaSample, Form};

@@ -15,6 +15,7 @@ use std::ops::Range;
 use super::branching::Branches;
 use super::branching::pilot::is_worth;
 use super::channels;
+use super::light_tracing::{Aims, LightTracer};
 use super::measure::pilot::{POINTS as PILOT_POINTS, STEMS_OF_A_POINT};
 use super::measure::{Meters, Part, Shared, Stream, streams};
 use super::meters::{Context, Prepared};
@@ -202,6 +203,8 @@ struct Run<'r, 'a> {
     densities: Vec<WavelengthDensity>,
     /// By chosen sensor.
     branches: Vec<Branches>,
+    /// Finds what paths from sensors cannot, if there is any.
+    light: Option<LightTracer<'a>>,
     unsampled: Vec<String>,
 }
 
@@ -223,7 +226,13 @@ impl<'r, 'a> Run<'r, 'a> {
                 .filter_map(|sensor| channels::density(scene, sensor))
                 .collect(),
             branches: vec![],
-            unsampled: unsampled(scene),
+            light: Aims::new(tables).map(|aims| LightTracer {
+                tables,
+                set: options.instruction_set,
+                max_depth,
+                aims,
+            }),
+            unsampled: unsampled(scene, sensors()),
             scene,
             options,
             tables,
@@ -275,6 +284,7 @@ impl<'r, 'a> Run<'r, 'a> {
             weights: &self.weights,
             densities: &self.densities,
             branches: &self.branches,
+            light: self.light.as_ref(),
         };
         Meters::new(self.tables, self.options, streams, shared)
     }

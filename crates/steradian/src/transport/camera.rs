@@ -13,7 +13,7 @@ use self::optics::Optics;
 use super::branching::{BRANCHES, Branches, LIGHT_BLOCK};
 use super::channels;
 use super::columns::{BATCH, Flight, Workspace};
-use super::light_tracing::{Aims, LightTracer};
+use super::light_tracing::{Aims, FilmTracer, LightTracer};
 use super::measure::WAVELENGTH_BLOCK;
 use super::path::Tracer;
 use super::profile::Stage;
@@ -37,7 +37,7 @@ pub(super) struct CameraSampler<'a> {
     /// Paths from what a camera ray meets first.
     branches: Branches,
     /// Finds what paths from here cannot, if there is any.
-    light: Option<LightTracer<'a>>,
+    light: Option<FilmTracer<'a>>,
 }
 
 impl<'a> CameraSampler<'a> {
@@ -45,12 +45,14 @@ impl<'a> CameraSampler<'a> {
         let lanes = tracer.tables.scene.lanes();
         let channels = CAMERA_CHANNELS.map(|name| lanes.channel(name).unwrap_or(0));
         let aims = Aims::new(tracer.tables);
-        let light = aims.map(|aims| LightTracer {
-            tables: tracer.tables,
-            set: tracer.set,
-            max_depth: tracer.max_depth,
+        let light = aims.map(|aims| FilmTracer {
+            light: LightTracer {
+                tables: tracer.tables,
+                set: tracer.set,
+                max_depth: tracer.max_depth,
+                aims,
+            },
             camera: camera.clone(),
-            aims,
             density: density.clone(),
             channels,
         });

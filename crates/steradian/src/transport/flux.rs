@@ -152,7 +152,7 @@ impl FluxMeter<'_> {
         wavelengths: &Wavelengths,
     ) -> Start {
         let side = &tables.sides[2 * part as usize + usize::from(!self.front)];
-        let weights = self.weights(tables, side, drawn, wavelengths);
+        let weights = self.weights(tables, side, || drawn.site(), wavelengths);
         let lanes = weights[..tables.lanes].iter().copied();
         let greatest = match lanes.fold(0.0, f32::max) {
             greatest if greatest > 0.0 => greatest,
@@ -168,20 +168,21 @@ impl FluxMeter<'_> {
         }
     }
 
-    fn weights(
+    /// Of what arrives at a side.
+    pub fn weights(
         &self,
         tables: &Tables<'_>,
         side: &Side,
-        drawn: &Drawn<'_>,
+        site: impl Fn() -> Site,
         wavelengths: &Wavelengths,
     ) -> Lanes4 {
         let reflectance = match (self.of, side.model) {
             (FluxOf::Incident, _) => return [1.0; 4],
             (FluxOf::Emitted, _) => return [0.0; 4],
             (_, Model::Black | Model::Pane | Model::Any) => [0.0; 4],
-            _ => tables.lanes_at(&side.reflectance, wavelengths, || drawn.site()),
+            _ => tables.lanes_at(&side.reflectance, wavelengths, &site),
         };
-        let opacity = tables.opacity(side, || drawn.site()).unwrap_or(1.0);
+        let opacity = tables.opacity(side, &site).unwrap_or(1.0);
         reflectance.map(|lane| match self.of {
             FluxOf::Incident => 1.0,
             FluxOf::Emitted => 0.0,

@@ -6,12 +6,14 @@ use super::MeasureOptions;
 use super::branching::Branches;
 use super::channels;
 use super::columns::Workspace;
+use super::light_tracing::LightTracer;
 use super::meters::{Meter, Prepared};
 use super::next_event::NextEvent;
 use super::path::Tracer;
 use super::scatter;
 use super::scattering::{self, Encounter};
 use super::tables::{Candidates, Choice, Receiver, Tables};
+use super::thrown::{self, Catching, Gathering};
 use crate::estimation::{Integrand, Run, SampleBatch, Tally};
 use crate::sampling::hash;
 use crate::sensor::Sensor;
@@ -47,6 +49,8 @@ pub(super) struct Meters<'a> {
     densities: &'a [WavelengthDensity],
     /// Paths from what a path of a sensor meets first, by sensor.
     branches: &'a [Branches],
+    /// Finds what paths from here cannot, if there is any.
+    light: Option<&'a LightTracer<'a>>,
 }
 
 /// What the streams of a run have in common, by sensor.
@@ -58,6 +62,8 @@ pub(super) struct Shared<'a> {
     pub densities: &'a [WavelengthDensity],
     /// Paths from what a path meets first.
     pub branches: &'a [Branches],
+    /// Of no sensor in particular: finds what paths from sensors cannot, if there is any.
+    pub light: Option<&'a LightTracer<'a>>,
 }
 
 /// Paths that start alike.
@@ -96,7 +102,7 @@ impl Meter<'_> {
     }
 
     /// What a path's gathered light is multiplied with.
-    fn scale(&self) -> f64 {
+    pub(super) fn scale(&self) -> f64 {
         match self {
             Meter::Irradiance { .. } | Meter::Cylinder(_) => PI,
             Meter::Flux(flux) => PI * flux.area,
@@ -112,6 +118,7 @@ pub(super) struct MeterWorkspace {
     paths: Workspace,
     sign: Vec<f64>,
     columns: Vec<f64>,
+    catching: Catching,
 }
 
 impl<'a> Meters<'a> {
@@ -134,6 +141,7 @@ impl<'a> Meters<'a> {
             columns: tables.scene.columns(),
             densities: shared.densities,
             branches: shared.branches,
+            light: shared.light,
         }
     }
 
@@ -257,6 +265,21 @@ impl<'a> Meters<'a> {
         }
     }
 
+    /// Adds what paths from lights bring to the samples of runs.
+    fn follow_light(&self, runs: &[Run], workspace: &mut MeterWorkspace) {
+        let Some(light) = self.light else {
+            return;
+        };
+        let paths = &mut workspace.paths;
+        let gathering = Gathering {
+            wavelengths: &paths.wavelengths,
+            sign: &workspace.sign,
+            gathered: &mut paths.gathered,
+        };
+        let catching = &mut workspace.catching;
+        thrown::gather(light, &self.streams, runs, catching, gathering);
+    }
+
     /// Tells the columns of every sample, with the number of its run.
     pub fn read(
         &self,
@@ -323,6 +346,7 @@ impl Integrand for Meters<'_> {
     fn sample(&self, batch: &SampleBatch, workspace: &mut MeterWorkspace, tally: &mut Tally) {
         let branches = |stream: &Stream| self.branches[stream.sensor];
         self.follow(batch.runs, branches, workspace);
+        self.follow_light(batch.runs, workspace);
         self.read(batch.runs, workspace, |run, columns| {
             let stream = batch.runs[run].stream as usize;
             tally.sample(run, columns, self.weights(stream));

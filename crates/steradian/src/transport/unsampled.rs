@@ -1,48 +1,78 @@
 //! Path classes that no active estimator can sample.
 //!
-//! A light without extent is found by next-event estimation only, and a polished surface couples single directions only:
-//! the light that such a surface throws from such a light onto other surfaces, and its image there, are not sampled by readings. Pictures
-//! lack only what a polished surface shows to the camera of it: the image of the light, and the image of what the light was thrown on, as
-//! [light tracing](super::light_tracing) finds the rest, but for lights out of its reach. What is missing is told, never left out in silence. What a pane lets straight through is not among them, as next-event rays pass, except in the
-//! flux that leaves the pane itself, where no ray is left to pass.
+//! A light without extent is found by next-event estimation only, and a polished surface couples single directions only. What such a surface throws from
+//! such a light is [traced from the light](super::light_tracing), to where it is scattered or counted. So what is missing is told, never left out in
+//! silence:
+//!
+//! | sensor | what is missing |
+//! |---|---|
+//! | camera | what a polished surface in view shows: the image of the light, and the image of what the light was thrown on |
+//! | irradiance at points | what comes to them from polished surfaces straight |
+//! | radiance | all of it |
+//! | flux | nothing |
+//!
+//! and all of it from lights at a point that are too far away for paths from there, and from parallel light by way of infinite planes.
 
 use crate::brdf::Scatter;
 use crate::geometry::{Direction, Point, Vector};
 use crate::light::{self, Light};
 use crate::material::{ColorLanes, Material, MaterialId, Site};
 use crate::scene::Scene;
-use crate::sensor::{Camera, FluxOf, FluxSurface, Kind};
+use crate::sensor::{Camera, FluxOf, FluxSurface, Kind, Sensor};
 use crate::shape::{Form, PartId, ShapeId};
 use crate::spectrum::Wavelengths;
 
-/// One sentence for each class that is missing from readings.
-pub fn unsampled(scene: &Scene) -> Vec<String> {
-    let mut classes = thrown(scene, |_, _| Some(""));
-    for name in fluxes_of_panes(scene) {
-        let through =
-            |light: &Light| format!("light of `{}` in flux `{name}` of a pane", light.name);
-        classes.extend(lamps(scene).map(through));
+/// One sentence for each class that is missing from readings of some sensors.
+pub(super) fn unsampled<'s>(
+    scene: &Scene,
+    sensors: impl Iterator<Item = &'s Sensor> + Clone,
+) -> Vec<String> {
+    let lack = sensors.clone().filter_map(lack).max();
+    let mut classes = thrown(scene, |light, material| match lack {
+        _ if is_untraced(scene, light, material) => Some(""),
+        Some(Lack::Straight) => Some(", straight to points at which it is measured"),
+        Some(Lack::Whole) => Some(""),
+        None => None,
+    });
+    for sensor in sensors.filter(|sensor| counts_what_leaves_a_pane(scene, sensor)) {
+        let through = |light: &Light| {
+            let (light, sensor) = (&light.name, &sensor.name);
+            format!("light of `{light}` in flux `{sensor}` of a pane")
+        };
+        let far = lamps(scene).filter(|light| is_out_of_reach(scene, light));
+        classes.extend(far.map(through));
     }
     classes
 }
 
-/// One sentence for each class that is missing from any of a scene's sensors; from readings if it has none.
+/// What a meter does not have of light that polished surfaces throw.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Lack {
+    Straight,
+    Whole,
+}
+
+fn lack(sensor: &Sensor) -> Option<Lack> {
+    match sensor.kind {
+        Kind::Flux { .. } | Kind::Balance(_) | Kind::Camera(_) => None,
+        Kind::Irradiance(_) | Kind::ScalarIrradiance(_) | Kind::Cylindrical(_) => {
+            Some(Lack::Straight)
+        }
+        Kind::Radiance(_) => Some(Lack::Whole),
+    }
+}
+
+/// One sentence for each class that is missing from any of a scene's sensors.
 pub fn unsampled_by_any(scene: &Scene) -> Vec<String> {
-    let cameras = scene
-        .sensors()
-        .iter()
-        .filter_map(|sensor| match &sensor.kind {
-            Kind::Camera(camera) => Some(camera),
-            _ => None,
-        });
-    let has_cameras_only = cameras.clone().count() == scene.sensors().len();
-    let mut classes = match has_cameras_only && !scene.sensors().is_empty() {
-        true => vec![],
-        false => unsampled(scene),
-    };
-    for class in cameras.flat_map(|camera| unsampled_in_picture(scene, camera)) {
-        if !classes.contains(&class) {
-            classes.push(class);
+    let mut classes = unsampled(scene, scene.sensors().iter());
+    for sensor in scene.sensors() {
+        let Kind::Camera(camera) = &sensor.kind else {
+            continue;
+        };
+        for class in unsampled_in_picture(scene, camera) {
+            if !classes.contains(&class) {
+                classes.push(class);
+            }
         }
     }
     classes
@@ -50,17 +80,25 @@ pub fn unsampled_by_any(scene: &Scene) -> Vec<String> {
 
 /// One sentence for each class that is missing from a picture, which has what [light tracing](super::light_tracing) finds.
 pub(super) fn unsampled_in_picture(scene: &Scene, camera: &Camera) -> Vec<String> {
+    if lamps(scene).next().is_none() {
+        return vec![];
+    }
     let seen = polished_shapes(scene);
     let mut seen = seen.iter().map(|id| &scene.surfaces().shape(*id).form);
     let is_seen = seen.any(|form| form.bounds().is_none_or(|bounds| camera.may_see(&bounds)));
     thrown(scene, |light, material| {
-        let is_endless = matches!(light.kind, light::Kind::Directional { .. });
-        if is_out_of_reach(scene, light) || is_endless && is_on_plane(scene, material) {
+        if is_untraced(scene, light, material) {
             Some("")
         } else {
             is_seen.then_some(", as polished surfaces show it to the camera")
         }
     })
+}
+
+/// Whether nothing that a material throws of a light is traced.
+fn is_untraced(scene: &Scene, light: &Light, material: MaterialId) -> bool {
+    let is_endless = matches!(light.kind, light::Kind::Directional { .. });
+    is_out_of_reach(scene, light) || is_endless && is_on_plane(scene, material)
 }
 
 /// Whether a light at a point is so far away that rays from there, in f32, would miss what they are sent to: a thousand diagonals of the scene.
@@ -124,27 +162,23 @@ fn is_on_plane(scene: &Scene, material: MaterialId) -> bool {
     })
 }
 
-/// Sensors that count what leaves a pane.
-fn fluxes_of_panes(scene: &Scene) -> impl Iterator<Item = &str> {
+/// Whether a sensor counts what leaves a pane.
+fn counts_what_leaves_a_pane(scene: &Scene, sensor: &Sensor) -> bool {
     let is_pane = |part: &PartId| {
         let part = scene.parts()[part.0 as usize];
         [part.front, part.back].map(|id| scene.material(id).is_pane()) != [false; 2]
     };
-    let concerned = scene
-        .sensors()
-        .iter()
-        .filter(move |sensor| match &sensor.kind {
-            Kind::Flux {
-                surface: FluxSurface::Shapes { shapes, .. },
-                of,
-                ..
-            } if *of != FluxOf::Incident => {
-                let mut placed = shapes.iter().map(|id| scene.surfaces().shape(*id));
-                placed.any(|shape| shape.parts.iter().any(is_pane))
-            }
-            _ => false,
-        });
-    concerned.map(|sensor| sensor.name.as_str())
+    match &sensor.kind {
+        Kind::Flux {
+            surface: FluxSurface::Shapes { shapes, .. },
+            of,
+            ..
+        } if *of != FluxOf::Incident => {
+            let mut placed = shapes.iter().map(|id| scene.surfaces().shape(*id));
+            placed.any(|shape| shape.parts.iter().any(is_pane))
+        }
+        _ => false,
+    }
 }
 
 /// Shapes that send light from a single direction into a single direction.

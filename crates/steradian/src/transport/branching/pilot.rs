@@ -16,6 +16,9 @@
 use super::{BRANCHES, Branches};
 use crate::estimation::Stopping;
 
+/// Tells the numbers of a pilot from those of the run.
+pub(in super::super) const KEY: u64 = 0x7069_6c6f_7421;
+
 /// A pilot is taken where it is at most this part of a run.
 const LEAST_PART: u64 = 64;
 
@@ -37,8 +40,20 @@ pub(in super::super) fn is_worth(stop: &Stopping, points: u64, pilot: usize) -> 
     }
 }
 
+/// As many branches as suit a pilot of so many stems, whose streams have so many nets each; the nets of the run are longer by a factor.
+pub(in super::super) fn suited(
+    threads: usize,
+    (stems, nets): (usize, usize),
+    longer: f64,
+    follow: impl Fn(Branches) -> (Vec<f64>, u64) + Sync,
+) -> Branches {
+    let (means, rays) = of_each_branch(threads, follow);
+    let rays = rays as f64 / (means.len() * stems) as f64 - 1.0;
+    Branches::all(Variances::of(&means, nets).best(rays.max(0.0), longer))
+}
+
 /// The means of the nets of each branch, and the rays of all, a thread for each branch if there are several.
-pub(in super::super) fn of_each_branch(
+fn of_each_branch(
     threads: usize,
     follow: impl Fn(Branches) -> (Vec<f64>, u64) + Sync,
 ) -> ([Vec<f64>; BRANCHES as usize], u64) {
@@ -61,14 +76,14 @@ pub(in super::super) fn of_each_branch(
 
 /// V_c and V_p, relative and of a net.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in super::super) struct Variances {
+struct Variances {
     shared: f64,
     own: f64,
 }
 
 impl Variances {
     /// From the means of nets by branch, so many of each pixel or point.
-    pub fn of(branches: &[Vec<f64>; BRANCHES as usize], nets: usize) -> Self {
+    fn of(branches: &[Vec<f64>; BRANCHES as usize], nets: usize) -> Self {
         let count = f64::from(BRANCHES);
         let net = |i: usize| mean_and_variance(branches.iter().map(|branch| branch[i]));
         let all: Vec<_> = (0..branches[0].len()).map(net).collect();
@@ -88,7 +103,7 @@ impl Variances {
 
     /// The number of branches, up to [`BRANCHES`], of the greatest efficiency, with so many rays to a path and nets that are longer than the
     /// pilot's by a factor.
-    pub fn best(&self, rays: f64, longer: f64) -> u32 {
+    fn best(&self, rays: f64, longer: f64) -> u32 {
         let shared = self.shared.max(0.0) / longer.max(1.0).sqrt();
         let cost = |count: u32| {
             let k = f64::from(count);

@@ -1,7 +1,7 @@
 //! A pilot of a picture: how many branches its camera rays have.
 
 use super::super::branching::Branches;
-use super::super::branching::pilot::{Variances, is_worth, of_each_branch};
+use super::super::branching::pilot::{KEY, is_worth, suited};
 use super::super::columns::{BATCH, Workspace};
 use super::CameraSampler;
 use crate::estimation::Plan;
@@ -16,8 +16,6 @@ const STEMS: usize = PIXELS * NETS * SAMPLES_OF_A_NET;
 /// Samples of a pixel in a pass where that is not told.
 const USUAL_NET: f64 = 16.0;
 const PIXELS_OF_A_BATCH: usize = BATCH / (NETS * SAMPLES_OF_A_NET);
-/// Tells the numbers of a pilot from those of the picture.
-const KEY: u64 = 0x7069_6c6f_7421;
 
 impl<'a> CameraSampler<'a> {
     /// The same with as many branches as suit the picture, if it is worth finding out.
@@ -35,15 +33,13 @@ impl<'a> CameraSampler<'a> {
     /// They are the same for every seed.
     fn suited_branches(&self, film: &Film, longer: f64, threads: usize) -> Branches {
         let key = hash::combine(film.key, KEY);
-        let (means, rays) = of_each_branch(threads, |branches| {
+        suited(threads, (STEMS, NETS), longer, |branches| {
             let mut paths = Workspace::default();
             let batches = 0..PIXELS / PIXELS_OF_A_BATCH;
             let means = batches.map(|batch| self.means(film, (key, batch), (branches, &mut paths)));
             let means = means.collect::<Vec<_>>().concat();
             (means, paths.watch.times.rays)
-        });
-        let rays = rays as f64 / (means.len() * STEMS) as f64 - 1.0;
-        Branches::all(Variances::of(&means, NETS).best(rays.max(0.0), longer))
+        })
     }
 
     /// Means of the nets of some pixels.

@@ -2,7 +2,7 @@
 //!
 //! A path that is sent to a shape counts only if that is what it meets first; so lights and shapes divide all paths among them, however the
 //! shapes' balls overlap. A light at a point sends into the cone that the ball around a shape subtends (a beam narrower than that into
-//! the beam), parallel light through the disc of that ball:
+//! the beam) or to the points of a rectangle, parallel light through the disc of that ball or through the rectangle:
 //!
 //! Φ = I(d) ω/P or E A/P
 //!
@@ -21,15 +21,18 @@ use glam::Vec3;
 
 use super::ball::{Ball, Obstacles};
 use super::bundle::{Bundle, Target};
+use crate::geometry::{Point, Vector};
 use crate::material::Site;
 use crate::sampling::discrete::Discrete;
-use crate::shape::ShapeId;
+use crate::shape::{Form, ShapeId};
 use crate::spectrum::Wavelengths;
 use crate::transport::tables::{Emitter, EmitterShape, Lanes4, Tables};
 use crate::transport::unsampled::{is_out_of_reach, polished_shapes};
 
 /// More pairs of lights and shapes than this are not told apart: each light is sent to all shapes at once.
 const PAIRS: usize = 1 << 16;
+/// Cosine of the edges' angle up to which a parallelogram is a rectangle.
+const SQUARENESS: f64 = 1e-9;
 /// The part of all paths that is dealt out evenly.
 const EVENLY: f64 = 0.1;
 
@@ -53,6 +56,8 @@ pub(super) struct Start {
     pub origin: [f32; 3],
     pub direction: [f32; 3],
     pub flux: Lanes4,
+    /// Of the light.
+    pub group: u32,
     pub target: Option<ShapeId>,
 }
 
@@ -60,8 +65,11 @@ impl Aims {
     /// `None` if there is no such light or nothing polished that it could be sent to.
     pub fn new(tables: &Tables<'_>) -> Option<Self> {
         let surfaces = tables.scene.surfaces();
-        let obstacles = Obstacles::new(surfaces);
         let lamps = tables.extended..tables.emitters.len();
+        if lamps.is_empty() {
+            return None;
+        }
+        let obstacles = Obstacles::new(surfaces);
         let targets = targets(tables, lamps.len());
         let of_lamp = |emitter: usize| {
             let light = &tables.scene.lights()[tables.emitters[emitter].light];
@@ -106,6 +114,7 @@ impl Aims {
             origin,
             direction: direction.into(),
             flux: power.map(|lane| lane * factor),
+            group: emitter.group,
             target: aim.target,
         })
     }
@@ -117,12 +126,12 @@ fn targets(tables: &Tables<'_>, lamps: usize) -> Vec<Target> {
     let shapes = polished_shapes(tables.scene);
     let ball = |id: &ShapeId| Ball::around(&surfaces.shape(*id).form, surfaces.clearance());
     let target = |id: &ShapeId| {
-        let (shape, ball) = (Some(*id), ball(id));
-        let has_planes = ball.is_none();
+        let ball = ball(id);
         Target {
-            shape,
+            shape: Some(*id),
+            rectangle: rectangle(&surfaces.shape(*id).form, surfaces.clearance()),
+            has_planes: ball.is_none(),
             ball,
-            has_planes,
         }
     };
     if shapes.len() * lamps <= PAIRS {
@@ -132,8 +141,21 @@ fn targets(tables: &Tables<'_>, lamps: usize) -> Vec<Target> {
     vec![Target {
         shape: None,
         ball: Ball::around_all(&balls),
+        rectangle: None,
         has_planes: balls.len() < shapes.len(),
     }]
+}
+
+/// A corner and the edges of a rectangle that is wider by a margin; `None` of other forms.
+fn rectangle(form: &Form, margin: f64) -> Option<(Point, [Vector; 2])> {
+    let Form::Parallelogram(form) = form else {
+        return None;
+    };
+    let [a, b] = form.edges;
+    let wider = |edge: Vector| edge * (margin / edge.length());
+    let corner = form.origin - wider(a) - wider(b);
+    let is_square = a.dot(b).abs() <= SQUARENESS * a.length() * b.length();
+    is_square.then(|| (corner, [a, b].map(|edge| edge + wider(edge) * 2.0)))
 }
 
 impl Aim {

@@ -24,7 +24,7 @@ use crate::transport::scattering::Encounter;
 use crate::transport::tables::{Lanes4, Model, Side, Tables};
 
 /// Light that has met a surface.
-pub(super) struct Arrival<'a> {
+pub(in crate::transport) struct Arrival<'a> {
     pub tables: &'a Tables<'a>,
     pub hit: &'a Hit,
     pub wavelengths: &'a Wavelengths,
@@ -33,7 +33,7 @@ pub(super) struct Arrival<'a> {
 }
 
 /// How light leaves a surface.
-pub(super) struct Departure {
+pub(in crate::transport) struct Departure {
     pub direction: Vec3,
     /// Flux over what arrived.
     pub weight: Lanes4,
@@ -212,6 +212,16 @@ pub(super) fn mirrored(hit: &Hit, weight: Lanes4) -> Departure {
     let normal = Vec3::from_array(hit.place.normal);
     Departure {
         direction: (2.0 * normal.dot(viewer) * normal - viewer).normalize(),
+        weight,
+        is_specular: true,
+        medium: None,
+    }
+}
+
+/// Passed through without a turn.
+pub(super) fn straight(hit: &Hit, weight: Lanes4) -> Departure {
+    Departure {
+        direction: -Vec3::from_array(hit.viewer),
         weight,
         is_specular: true,
         medium: None,

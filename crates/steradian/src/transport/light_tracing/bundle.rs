@@ -1,10 +1,18 @@
-//! The rays from a light without extent to a ball.
+//! The rays from a light without extent to a polished shape: to the ball around it, or to a rectangle itself.
+//!
+//! | bundle | of | drawn evenly by |
+//! |---|---|---|
+//! | cone | light at a point, to a ball | solid angle |
+//! | window | light at a point, to a rectangle | solid angle |
+//! | shaft | parallel light, to a ball | area facing the light |
+//! | prism | parallel light, to a rectangle | area facing the light |
 
 use std::f64::consts::{PI, TAU};
 
 use super::ball::{Ball, Obstacles};
 use crate::geometry::{Direction, Frame, Point, Vector};
 use crate::light::{Beam, Kind, Light, Outlet};
+use crate::sampling::spherical_rectangle::SphericalRectangle;
 use crate::sampling::warp;
 use crate::shape::{ShapeId, Surfaces};
 
@@ -14,6 +22,8 @@ pub(super) struct Target {
     pub shape: Option<ShapeId>,
     /// Around all of it that is bounded.
     pub ball: Option<Ball>,
+    /// A corner and the edges of a rectangle around it, if it is one.
+    pub rectangle: Option<(Point, [Vector; 2])>,
     /// Whether there are planes, of which only light at a point finds the polish.
     pub has_planes: bool,
 }
@@ -21,7 +31,24 @@ pub(super) struct Target {
 /// Rays that are drawn evenly by solid angle or by area.
 pub(super) enum Bundle {
     Cone(Cone),
+    Window(Window),
     Shaft(Shaft),
+    Prism(Prism),
+}
+
+/// From a point in kernel coordinates.
+pub(super) struct Window {
+    apex: [f32; 3],
+    rectangle: SphericalRectangle,
+}
+
+/// From a rectangle in kernel coordinates.
+pub(super) struct Prism {
+    corner: Vector,
+    edges: [Vector; 2],
+    direction: [f32; 3],
+    /// Of the rectangle, facing the light.
+    area: f64,
 }
 
 /// From a point in kernel coordinates.
@@ -46,25 +73,48 @@ impl Bundle {
         light: &Light,
         target: &Target,
     ) -> Option<Self> {
-        let from = |position: Point, start: Point| {
+        let from = |position: Point, start: Point, beam: Option<(Direction, Beam)>| {
             let apex = surfaces.to_kernel(start);
             let ball = target.ball.filter(|_| !target.has_planes);
-            Cone::around(apex, ball.map(|ball| (ball.center - position, ball.radius)))
+            let cone = Cone::around(apex, ball.map(|ball| (ball.center - position, ball.radius)));
+            let cone = match beam {
+                Some((axis, beam)) => cone.within(axis, cutoff(beam))?,
+                None => cone,
+            };
+            let window = target.rectangle.and_then(|(corner, edges)| {
+                let rectangle = SphericalRectangle::new(corner - position, edges)?;
+                Some(Self::Window(Window { apex, rectangle }))
+            });
+            let cone = Self::Cone(cone);
+            Some(
+                window
+                    .filter(|window| window.measure() < cone.measure())
+                    .unwrap_or(cone),
+            )
         };
         match &light.kind {
-            Kind::Point(light) => Some(Self::Cone(from(light.position, light.position))),
+            Kind::Point(light) => from(light.position, light.position, None),
             Kind::Spot(light) => {
-                let cone = from(light.position, light.position);
-                cone.within(light.axis, cutoff(light.beam)).map(Self::Cone)
+                let beam = Some((light.axis, light.beam));
+                from(light.position, light.position, beam)
             }
             Kind::Luminaire(light) => match light.outlet {
-                Outlet::Point { end } => Some(Self::Cone(from(light.position, end))),
+                Outlet::Point { end } => from(light.position, end, None),
                 Outlet::Surface { .. } => None,
             },
             Kind::Directional { direction, .. } => {
                 let ball = target.ball.as_ref()?;
                 let reach = obstacles.upstream(ball, *direction) + surfaces.clearance();
-                Some(Self::Shaft(Shaft::new(surfaces, *direction, (ball, reach))))
+                Some(target.rectangle.map_or_else(
+                    || Self::Shaft(Shaft::new(surfaces, *direction, (ball, reach))),
+                    |rectangle| {
+                        Self::Prism(Prism::new(
+                            surfaces,
+                            *direction,
+                            (rectangle, reach + ball.radius),
+                        ))
+                    },
+                ))
             }
             _ => None,
         }
@@ -74,7 +124,9 @@ impl Bundle {
     pub fn measure(&self) -> f64 {
         match self {
             Self::Cone(cone) => TAU * cone.one_minus_cos,
+            Self::Window(window) => window.rectangle.solid_angle().to_steradians(),
             Self::Shaft(shaft) => PI * shaft.radius * shaft.radius,
+            Self::Prism(prism) => prism.area,
         }
     }
 
@@ -85,6 +137,15 @@ impl Bundle {
                 let local = warp::cone(u, v, cone.one_minus_cos as f32);
                 let local = Vector::from(local.map(f64::from));
                 (cone.apex, single(cone.frame.vector_to_world(local)))
+            }
+            Self::Window(window) => {
+                let way = window.rectangle.sample([u, v].map(f64::from));
+                (window.apex, single(way))
+            }
+            Self::Prism(prism) => {
+                let [a, b] = prism.edges;
+                let start = prism.corner + a * f64::from(u) + b * f64::from(v);
+                (single(start), prism.direction)
             }
             Self::Shaft(shaft) => {
                 let [x, y] = warp::disc(u, v).map(f64::from);
@@ -138,6 +199,22 @@ impl Shaft {
             middle: ball.center - surfaces.origin() - direction * (reach + ball.radius),
             frame: Frame::from_normal(direction),
             radius: ball.radius,
+        }
+    }
+}
+
+impl Prism {
+    /// Through a rectangle, from so far before it.
+    fn new(
+        surfaces: &Surfaces,
+        direction: Direction,
+        ((corner, edges), reach): ((Point, [Vector; 2]), f64),
+    ) -> Self {
+        Self {
+            corner: corner - surfaces.origin() - direction * reach,
+            edges,
+            direction: single(direction.to_vector()),
+            area: edges[0].cross(edges[1]).dot(direction.to_vector()).abs(),
         }
     }
 }

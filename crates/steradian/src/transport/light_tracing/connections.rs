@@ -1,4 +1,4 @@
-//! Rays from what light meets to the eye, and what they bring.
+//! Rays from what light meets to a sensor, and what they bring.
 
 use steradian_kernel::{InstructionSet, RayBatch};
 
@@ -7,27 +7,36 @@ use crate::transport::tables::{Lanes4, Tables};
 use crate::transport::transmittance::Transmittance;
 
 /// What would be seen if nothing stood between.
-pub(super) struct Connection {
-    /// Start and span to the eye.
+pub(in crate::transport) struct Connection<P> {
+    /// Start and span to the sensor.
     pub ray: ([f32; 3], [f32; 3]),
-    /// On the film, in pixels.
-    pub place: [f64; 2],
-    /// Radiance times pixels, by lane.
+    /// What it is for.
+    pub place: P,
+    /// By lane.
     pub value: Lanes4,
     /// Of the path.
     pub slot: u32,
 }
 
 /// Those of a batch.
-#[derive(Default)]
-pub(super) struct Connections {
+pub(in crate::transport) struct Connections<P> {
     rays: RayBatch,
-    waiting: Vec<Connection>,
+    waiting: Vec<Connection<P>>,
     transmittance: Transmittance,
 }
 
-impl Connections {
-    pub fn push(&mut self, connection: Connection) {
+impl<P> Default for Connections<P> {
+    fn default() -> Self {
+        Self {
+            rays: RayBatch::default(),
+            waiting: vec![],
+            transmittance: Transmittance::default(),
+        }
+    }
+}
+
+impl<P> Connections<P> {
+    pub fn push(&mut self, connection: Connection<P>) {
         let (start, span) = connection.ray;
         self.rays.push(start, span, 1.0);
         self.waiting.push(connection);
@@ -39,7 +48,7 @@ impl Connections {
         tables: &Tables<'_>,
         wavelengths: &[Wavelengths],
         set: InstructionSet,
-        mut hand_on: impl FnMut(&Connection, Lanes4),
+        mut hand_on: impl FnMut(&Connection<P>, Lanes4),
     ) {
         let of_ray = |i: usize| &wavelengths[self.waiting[i].slot as usize];
         self.transmittance.trace(tables, &self.rays, of_ray, set);

@@ -10,13 +10,15 @@ use crate::transport::tables::{Lanes4, Tables};
 
 /// A path that carries flux.
 #[derive(Clone, Debug)]
-pub(super) struct Particle {
+pub(in crate::transport) struct Particle {
     pub origin: [f32; 3],
     pub direction: [f32; 3],
     /// Flux with which it left the light, by lane.
     pub flux: Lanes4,
     /// What part of it is left.
     pub throughput: Lanes4,
+    /// Of the light.
+    pub group: u32,
     /// Slot, key and index.
     pub identity: (u32, u64, u32),
     /// The shape that it must meet first; none: any that is polished.
@@ -37,12 +39,13 @@ enum Medium {
 }
 
 impl Particle {
-    pub fn new(start: Start, identity: (u32, u64, u32)) -> Self {
+    pub(super) fn new(start: Start, identity: (u32, u64, u32)) -> Self {
         Self {
             origin: start.origin,
             direction: start.direction,
             flux: start.flux,
             throughput: [1.0; 4],
+            group: start.group,
             identity,
             target: start.target,
             events: 0,
@@ -56,6 +59,19 @@ impl Particle {
             *lane *= weight;
         }
         self
+    }
+
+    /// Flux that is left, by lane.
+    pub fn carried(&self) -> Lanes4 {
+        std::array::from_fn(|lane| self.flux[lane] * self.throughput[lane])
+    }
+
+    /// What part of it is left after some more metres.
+    pub fn kept(&self, tables: &Tables<'_>, way: f32, wavelengths: &Wavelengths) -> Lanes4 {
+        match self.medium {
+            Medium::Untold(_) => [1.0; 4],
+            Medium::Told(medium) => tables.attenuation(medium, way, wavelengths),
+        }
     }
 
     /// Goes on behind a surface.

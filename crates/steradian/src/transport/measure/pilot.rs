@@ -1,7 +1,7 @@
 //! A pilot of a sensor: how many branches its paths have.
 
 use super::super::branching::Branches;
-use super::super::branching::pilot::{Variances, of_each_branch};
+use super::super::branching::pilot::{KEY, suited};
 use super::super::columns::BATCH;
 use super::{MeterWorkspace, Meters};
 use crate::estimation::{Integrand, Run};
@@ -16,24 +16,20 @@ const USUAL_NET: f64 = 256.0;
 /// Stems of a point.
 pub(in super::super) const STEMS_OF_A_POINT: usize = NETS * SAMPLES_OF_A_NET;
 const STREAMS_OF_A_BATCH: usize = BATCH / STEMS_OF_A_POINT;
-/// Tells the numbers of a pilot from those of the readings.
-const KEY: u64 = 0x7069_6c6f_7421;
 
 impl Meters<'_> {
     /// As many branches as suit these streams in nets of so many samples, the same for every seed.
     pub fn suited_branches(&self, net: Option<f64>, threads: usize) -> Branches {
-        let (means, rays) = of_each_branch(threads, |branches| {
+        let stems = self.streams.len() * STEMS_OF_A_POINT;
+        let longer = net.unwrap_or(USUAL_NET) / SAMPLES_OF_A_NET as f64;
+        suited(threads, (stems, NETS), longer, |branches| {
             let mut workspace = self.new_workspace();
             let first = (0..self.streams.len()).step_by(STREAMS_OF_A_BATCH);
             let nets = first.map(|first| self.nets(first));
             let means = nets.map(|runs| self.means(&runs, branches, &mut workspace));
             let means = means.collect::<Vec<_>>().concat();
             (means, workspace.paths.watch.times.rays)
-        });
-        let stems = means.len() * self.streams.len() * STEMS_OF_A_POINT;
-        let rays = rays as f64 / stems as f64 - 1.0;
-        let longer = net.unwrap_or(USUAL_NET) / SAMPLES_OF_A_NET as f64;
-        Branches::all(Variances::of(&means, NETS).best(rays.max(0.0), longer))
+        })
     }
 
     /// The nets of the streams of a batch.
