@@ -108,8 +108,13 @@ pub fn metal(roughness: Option<Roughness>) -> Recipe<Varying, Scalar> {
 
 /// A pane of index 1.5.
 pub fn pane(transmittance: f64) -> Recipe<Varying, Scalar> {
+    pane_of(1.5, transmittance)
+}
+
+/// A pane of this index and transmittance of its inside.
+pub fn pane_of(ior: f64, transmittance: f64) -> Recipe<Varying, Scalar> {
     Recipe::Pane {
-        ior: 1.5,
+        ior,
         transmittance: even(transmittance),
     }
 }

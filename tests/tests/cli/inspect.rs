@@ -92,7 +92,7 @@ fn what_is_not_sampled_depends_on_the_sensors() {
     assert_eq!(
         classes,
         [
-            "light of `lamp` reflected by mirrors of material `silver`, straight to points at which it is measured"
+            "light of `lamp` reflected by mirrors of material `silver`, as polished surfaces show it to points of readings"
         ]
     );
 }

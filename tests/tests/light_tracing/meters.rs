@@ -2,13 +2,14 @@
 
 use std::f64::consts::PI;
 
+use steradian::brdf::Pane;
 use steradian::estimation::{Plan, Stopping};
 use steradian::measurement::Measurements;
-use steradian::scene::description::Receivers;
+use steradian::scene::description::{FluxSurface, LightKind, Receivers, Side};
 use steradian::sensor::FluxOf;
 use steradian::transport::MeasureOptions;
 use steradian_kernel::InstructionSet;
-use steradian_tests::measuring::{measured, reading, samples};
+use steradian_tests::measuring::{measured, reading, rel_error, samples};
 use steradian_tests::{assert_agrees, assert_same};
 
 use super::glass::{SLAB, lamp_in_glass, slab};
@@ -98,12 +99,15 @@ fn fluxes_before_a_mirror() -> SceneDescription {
         SensorKind::Flux { surface, .. } => SensorKind::Flux { surface, of },
         other => other,
     };
+    // In the plane of the floor, which stops what passes.
+    let on_the_floor = flux_through(disc(p(4.6, 0.8, 0.0), UP, 0.4));
     let mut scene = before_a_mirror(0.0, 2.0, 2.5);
     let patch = rectangle(p(4.1, -1.4, 0.3), [v(0.8, 0.0, 0.0), v(0.0, 0.8, 0.0)]);
     scene.shapes.push(patch.named("patch").made_of("grey"));
     scene.materials.push(lambertian("grey", 0.3));
     scene.sensors = vec![
         sensor("through", through(FluxOf::Incident)),
+        sensor("on the floor", on_the_floor),
         sensor("net through", through(FluxOf::Net)),
         sensor("incident", flux_of("patch", FluxOf::Incident)),
         sensor("absorbed", flux_of("patch", FluxOf::Absorbed)),
@@ -121,16 +125,103 @@ fn fluxes_have_what_a_mirror_throws() {
     assert!(all.complete(), "{:?}", all.unsampled);
 }
 
-/// Light that a path of two segments brings by way of the mirror is missing from paths of one.
+/// Each light group, of lamps at two places, and each of two bands has what its own image would bring.
+#[test]
+fn groups_and_bands_keep_their_light() {
+    let of_group = |mut light: LightDescription, group: &str| {
+        light.group = Some(group.into());
+        light
+    };
+    let at = |x: f64| of_group(point_light(p(x, 0.4, 1.8), intensity(2.0 * LAMP)), "b");
+    let mut scene = fluxes_before_a_mirror();
+    scene.spectrum = visible();
+    scene.sensors.truncate(1);
+    scene.lights = vec![of_group(lamp(), "a"), at(0.0)];
+    let mut truth = imagined(scene.clone());
+    truth.lights.pop();
+    let dimmer = |mut light: LightDescription, power| {
+        if let LightKind::Point { power: own, .. } = &mut light.kind {
+            *own = power;
+        }
+        light
+    };
+    truth.lights.push(of_group(image(), "a"));
+    truth
+        .lights
+        .push(dimmer(at(-2.0), intensity(2.0 * LAMP * MIRROR)));
+    let options = within(2, 1 << 14);
+    let [seen, truth] =
+        [&scene, &truth].map(|scene| reading(&measured(scene, &options), "through"));
+    assert_eq!(seen.groups.len(), 2);
+    for ((name, seen), (_, truth)) in seen.groups.iter().zip(&truth.groups) {
+        assert_same(name, seen, truth);
+        assert!(seen.std_error < 0.03 * seen.value, "{name}: {seen:?}");
+    }
+}
+
+/// A run to a tolerance ends with an interval that is as narrow and holds the truth.
+#[test]
+fn fluxes_are_found_to_a_tolerance() {
+    let mut scene = fluxes_before_a_mirror();
+    scene.sensors.truncate(1);
+    let options = MeasureOptions {
+        max_depth: Some(2),
+        ..rel_error(0.02)
+    };
+    let [seen, truth] = [scene.clone(), imagined(scene)]
+        .map(|scene| reading(&measured(&scene, &options), "through").estimate);
+    assert_same("through", &seen, &truth);
+    let [low, high] = seen.interval.unwrap();
+    assert!(seen.converged && high - low < 0.04 * seen.value, "{seen:?}");
+}
+
+/// Parallel light of 1000 W/m² falls straight on a pane of 4 m²: R goes back, T on, and the rest stays. With n = 1 nothing goes back.
+#[test]
+fn what_a_pane_does_with_a_sun_is_in_closed_form() {
+    for ior in [1.0, 1.5] {
+        let (reflected, passed) = Pane::new(ior, [0.7; 4]).unwrap().shares(1.0)[0];
+        let panes = modelled("glass", pane_of(ior, 0.7));
+        let shape = square(2.0, 0.0).named("pane").made_of("glass");
+        let mut scene = scene([panes], [shape], [directional(DOWN, 1000.0)]);
+        let expected = [
+            (Side::Front, FluxOf::Leaving, reflected),
+            (Side::Front, FluxOf::Net, 1.0 - reflected),
+            (Side::Front, FluxOf::Absorbed, 1.0 - reflected - passed),
+            (Side::Back, FluxOf::Leaving, passed),
+            (Side::Back, FluxOf::Net, -passed),
+        ];
+        let meter = |(side, of, _): &(Side, FluxOf, f64)| {
+            let surface = FluxSurface::Shape {
+                name: "pane".into(),
+                side: *side,
+            };
+            sensor(
+                &format!("{side:?} {of:?}"),
+                SensorKind::Flux { surface, of: *of },
+            )
+        };
+        scene.sensors = expected.iter().map(meter).collect();
+        let found = measured(&scene, &samples(1 << 12));
+        assert!(found.complete(), "{:?}", found.unsampled);
+        for (sensor, (_, _, part)) in scene.sensors.iter().zip(expected) {
+            let seen = reading(&found, &sensor.name).estimate;
+            assert_agrees(&sensor.name, &seen, 4000.0 * part, 0.1);
+            assert!(part == 0.0 || seen.std_error < 60.0, "{seen:?}");
+        }
+    }
+}
+
+/// What a mirror throws is missing from paths of fewer segments: two to a surface, three to a point.
 #[test]
 fn the_longest_path_counts_from_the_light() {
-    let mut scene = fluxes_before_a_mirror();
-    let direct = measured(&imagined_without(&scene), &within(1, 1 << 12));
-    let cut = measured(&scene, &within(1, 1 << 12));
-    scene.sensors.truncate(1);
-    for sensor in &scene.sensors {
-        let [cut, direct] = [&cut, &direct].map(|all| reading(all, &sensor.name).estimate);
-        assert_same("cut", &cut, &direct);
+    for (scene, depth) in [(fluxes_before_a_mirror(), 1), (behind_the_wall(), 2)] {
+        let options = within(depth, 1 << 12);
+        let direct = measured(&imagined_without(&scene), &options);
+        let cut = measured(&scene, &options);
+        for sensor in &scene.sensors {
+            let [cut, direct] = [&cut, &direct].map(|all| reading(all, &sensor.name).estimate);
+            assert_same(&sensor.name, &cut, &direct);
+        }
     }
 }
 
@@ -202,7 +293,7 @@ fn what_readings_lack_is_told_by_kind() {
     };
     let thrown = "light of `light 0` reflected by mirrors of material `mirror`";
     let at = p(3.0, 0.0, 0.5);
-    let straight = format!("{thrown}, straight to points at which it is measured");
+    let straight = format!("{thrown}, as polished surfaces show it to points of readings");
     assert_eq!(classes(irradiance_at([(at, UP)])), [straight.clone()]);
     assert_eq!(classes(scalar_irradiance_at(at)), [straight]);
     assert_eq!(classes(radiance_along(at, DOWN)), [thrown]);

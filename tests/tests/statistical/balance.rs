@@ -103,7 +103,8 @@ fn light_is_kept_whatever_it_falls_on() {
     }
 }
 
-const POLISHED: [&str; 8] = [
+const POLISHED: [&str; 9] = [
+    r#"model = "pane", ior = 1, transmittance = 0.7"#,
     r#"model = "mirror", reflectance = 0.9"#,
     r#"model = "conductor", eta = 0.2, k = 3"#,
     r#"model = "dielectric", ior = 1.5"#,

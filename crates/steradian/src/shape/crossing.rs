@@ -12,6 +12,8 @@ pub struct Ray {
     pub direction: Direction,
     /// The greatest t in metres.
     pub reach: f64,
+    /// So many metres before it, on the side that the ray comes from, a form is passed through.
+    pub clearance: f64,
 }
 
 /// A point at which a ray passes through a form.
@@ -25,23 +27,23 @@ pub struct Crossing {
 
 impl Form {
     /// Tells each point at which a ray passes through, in no particular order.
-    pub fn crossings(&self, ray: &Ray, mut tell: impl FnMut(Crossing)) {
+    pub fn crossings(&self, ray: &Ray, tell: impl FnMut(Crossing)) {
         match self {
             Self::Parallelogram(form) => {
-                let crossing = ray.through(form.origin, form.normal);
-                tell_if(crossing, |at| form.covers(at), ray, tell);
+                let plane = (form.origin, form.normal);
+                ray.through(plane, |at| form.covers(at)).for_each(tell);
             }
             Self::Disc(disc) => {
-                let crossing = ray.through(disc.center, disc.normal);
                 let radii = disc.inner_radius..=disc.radius;
                 let covers = |at: Point| radii.contains(&(at - disc.center).length());
-                tell_if(crossing, covers, ray, tell);
+                ray.through((disc.center, disc.normal), covers)
+                    .for_each(tell);
             }
             Self::Plane { point, normal } => {
-                tell_if(ray.through(*point, *normal), |_| true, ray, tell);
+                ray.through((*point, *normal), |_| true).for_each(tell);
             }
             Self::Sphere(sphere) => sphere.crossings(ray).for_each(tell),
-            Self::Mesh(mesh) => mesh.crossings(ray).for_each(&mut tell),
+            Self::Mesh(mesh) => mesh.crossings(ray).for_each(tell),
         }
     }
 }
@@ -51,30 +53,27 @@ impl Ray {
         self.origin + self.direction * distance
     }
 
-    fn goes_to(&self, distance: f64) -> bool {
-        (0.0..=self.reach).contains(&distance)
-    }
-
-    /// Where it passes through a plane; `None` if it is along it.
-    fn through(&self, point: Point, normal: Direction) -> Option<Crossing> {
-        let slope = self.direction.dot(normal);
-        let distance = (point - self.origin).dot(normal.to_vector()) / slope;
-        let from_front = slope < 0.0;
-        (slope != 0.0 && self.goes_to(distance)).then_some(Crossing {
+    /// That of a surface at this distance, whose normal has this cosine with the direction.
+    fn crossing(&self, distance: f64, cosine: f64) -> Option<Crossing> {
+        let distance = distance - self.clearance / cosine.abs();
+        (0.0..=self.reach).contains(&distance).then_some(Crossing {
             distance,
-            from_front,
+            from_front: cosine < 0.0,
         })
     }
-}
 
-fn tell_if(
-    crossing: Option<Crossing>,
-    covers: impl Fn(Point) -> bool,
-    ray: &Ray,
-    tell: impl FnMut(Crossing),
-) {
-    let is_within = |crossing: &Crossing| covers(ray.at(crossing.distance));
-    crossing.filter(is_within).into_iter().for_each(tell);
+    /// Where it passes through what covers a part of a plane.
+    fn through(
+        &self,
+        (point, normal): (Point, Direction),
+        covers: impl Fn(Point) -> bool,
+    ) -> impl Iterator<Item = Crossing> {
+        let cosine = self.direction.dot(normal);
+        let distance = (point - self.origin).dot(normal.to_vector()) / cosine;
+        let is_met = cosine != 0.0 && covers(self.at(distance));
+        let crossing = self.crossing(distance, cosine);
+        crossing.filter(|_| is_met).into_iter()
+    }
 }
 
 impl Parallelogram {
@@ -95,17 +94,14 @@ impl Sphere {
         let along = way.dot(ray.direction.to_vector());
         let aside = way - ray.direction * along;
         let half_chord = (self.radius * self.radius - aside.dot(aside)).sqrt();
-        let crossing = move |distance: f64, enters: bool| {
+        let crossing = move |distance: f64| {
             let outwards = Direction::new(ray.at(distance) - self.center).ok()?;
-            let is_there = ray.goes_to(distance) && !self.in_port(outwards);
-            is_there.then_some(Crossing {
-                distance,
-                from_front: enters != self.inside,
-            })
+            let facing = if self.inside { -outwards } else { outwards };
+            let crossing = ray.crossing(distance, ray.direction.dot(facing));
+            crossing.filter(|_| !self.in_port(outwards))
         };
-        let ends = [(along - half_chord, true), (along + half_chord, false)];
-        ends.into_iter()
-            .filter_map(move |(t, enters)| crossing(t, enters))
+        let ends = [along - half_chord, along + half_chord];
+        ends.into_iter().filter_map(crossing)
     }
 }
 
@@ -125,13 +121,11 @@ fn triangle(corners: [Point; 3], ray: &Ray) -> Option<Crossing> {
     let shares = [volume(b, c), volume(c, a), volume(a, b)];
     let whole: f64 = shares.iter().sum();
     let is_met = shares.iter().all(|share| share * whole >= 0.0);
-    let normal = (b - a).cross(c - a);
-    let slope = d.dot(normal);
-    let distance = a.dot(normal) / slope;
-    (is_met && whole != 0.0 && ray.goes_to(distance)).then_some(Crossing {
-        distance,
-        from_front: slope < 0.0,
-    })
+    let normal = Direction::new((b - a).cross(c - a)).ok()?;
+    let cosine = ray.direction.dot(normal);
+    let distance = a.dot(normal.to_vector()) / cosine;
+    let crossing = ray.crossing(distance, cosine);
+    crossing.filter(|_| is_met && whole != 0.0)
 }
 
 #[cfg(test)]
@@ -151,6 +145,7 @@ mod tests {
             origin: Point::new(x, y, 3.0),
             direction: -Z,
             reach,
+            clearance: 0.0,
         };
         let mut found = vec![];
         form.crossings(&ray, |crossing| {
@@ -207,6 +202,34 @@ mod tests {
         assert_eq!(found(&sphere(false, vec![]), [1.1, 0.0], 9.0), []);
     }
 
+    /// What ends on a plane, or begins there, has passed through it on the way there, and not on the way back.
+    #[test]
+    fn a_surface_is_passed_before_it_is_reached() {
+        let plane = Form::Plane {
+            point: Point::ORIGIN,
+            normal: Z,
+        };
+        let along = |direction: Direction, height: f64, reach: f64| {
+            let ray = Ray {
+                origin: Point::new(0.0, 0.0, height),
+                direction,
+                reach,
+                clearance: 1e-3,
+            };
+            let mut found = vec![];
+            plane.crossings(&ray, |crossing| found.push(crossing.from_front));
+            found
+        };
+        for error in [-1e-6, 0.0, 1e-6] {
+            let slanting = direction(0.8, 0.0, -0.6);
+            assert_eq!(along(slanting, 0.6, 1.0 + error), [true]);
+            assert_eq!(along(direction(0.8, 0.0, 0.6), error, 1.0), []);
+            assert_eq!(along(slanting, error, 1.0), []);
+            assert_eq!(along(direction(0.8, 0.0, 0.6), -0.6, 1.0 + error), [false]);
+        }
+        assert_eq!(along(direction(1.0, 0.0, 0.0), 0.5, 9.0), []);
+    }
+
     /// A square of two triangles is met once, and from where the parallelogram of the same corners is met.
     #[test]
     fn a_mesh_is_met_like_the_parallelogram_that_it_fills() {
@@ -222,6 +245,7 @@ mod tests {
                 origin: Point::new(0.15 * column - 0.7, 0.11 * row - 0.4, 3.0),
                 direction: direction(0.1, -0.05, -1.0),
                 reach: 9.0,
+                clearance: 0.0,
             };
             let mut both = [vec![], vec![]];
             for (form, found) in [&plain, &mesh].into_iter().zip(&mut both) {

@@ -34,6 +34,8 @@ pub(super) type Parts<'a> = (&'a [PartId], u32);
 pub(super) struct FluxMeter<'a> {
     /// Forms with the cumulative share of their sampling area.
     pub forms: Vec<(&'a Form, Option<Parts<'a>>, f64)>,
+    /// The first primitive of each shape, in ascending order; none of a surface that does not block light.
+    pub shapes: Vec<u32>,
     /// Sum of their sampling areas.
     pub area: f64,
     /// The front is counted.

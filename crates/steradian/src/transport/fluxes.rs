@@ -12,7 +12,7 @@ use crate::shape::Form;
 impl<'a> Context<'_, 'a> {
     pub fn flux(&self, surface: &'a FluxSurface, of: FluxOf) -> Prepared<'a> {
         let mut exact = vec![0.0; self.columns()];
-        let mut forms = Vec::new();
+        let (mut forms, mut firsts) = (Vec::new(), Vec::new());
         let mut area = 0.0;
         let mut add = |form: &'a Form, parts| {
             area += form.sampling_area();
@@ -27,18 +27,21 @@ impl<'a> Context<'_, 'a> {
                 for id in shapes {
                     let placed = self.scene.surfaces().shape(*id);
                     let first = self.scene.surfaces().first_primitive(*id);
+                    firsts.push(first);
                     add(&placed.form, Some((&placed.parts[..], first)));
                     exact::emitted_flux(self.scene, placed, *front, of, &mut exact);
                 }
                 *front
             }
         };
+        firsts.sort_unstable();
         let forms = forms
             .into_iter()
             .map(|(form, parts, sum)| (form, parts, sum / area))
             .collect();
         let meter = (self.max_depth >= 1).then_some(Meter::Flux(FluxMeter {
             forms,
+            shapes: firsts,
             area,
             front,
             of,

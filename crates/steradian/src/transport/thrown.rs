@@ -14,7 +14,8 @@
 //! | T | transmittance from D to the meter | 1 |
 //! | r, θ | distance of D, and its angle from the meter's normal | m, rad |
 //!
-//! E is bounded by the distance of the point from what may light it. The numbers of a sample's path from the light are its own, so that its
+//! E is bounded by the distance of the point from what may light it, and so is not where surfaces that are lit come close to the point, as in a
+//! corner: there its variance grows with the inverse square of the distance. As in pictures, finer normals at grazing light have no bound. The numbers of a sample's path from the light are its own, so that its
 //! replicate is one of both.
 
 mod landing;
@@ -33,6 +34,7 @@ use super::meters::Meter;
 use super::tables::{Lanes4, Tables};
 use crate::estimation::Run;
 use crate::sampling::hash;
+use crate::sensor::FluxOf;
 use crate::spectrum::Wavelengths;
 
 /// Tells the numbers of paths from lights from those of paths from the meter.
@@ -46,6 +48,13 @@ pub(super) struct Catching {
     connections: Connections<u32>,
     /// By slot.
     streams: Vec<u32>,
+}
+
+impl Catching {
+    /// Rays so far.
+    pub fn rays(&self) -> u64 {
+        self.flock.traced
+    }
 }
 
 /// Where the light of the paths of some runs is gathered.
@@ -68,7 +77,8 @@ pub(super) fn gather(
     catching.streams.clear();
     for run in runs {
         let key = hash::combine(run.key, KEY);
-        let is_caught = streams[run.stream as usize].meter.catches();
+        let meter = &streams[run.stream as usize].meter;
+        let is_caught = meter.catches() && light.max_depth >= 2 + meter.segments();
         for number in 0..run.count {
             let slot = catching.streams.len();
             catching.streams.push(run.stream);
@@ -93,7 +103,16 @@ pub(super) fn gather(
 impl Meter<'_> {
     /// Whether paths from lights find it.
     fn catches(&self) -> bool {
-        !matches!(self, Self::Surface(_) | Self::Ray { .. })
+        match self {
+            Self::Irradiance { .. } | Self::Scalar { .. } | Self::Cylinder(_) => true,
+            Self::Flux(flux) => flux.of != FluxOf::Emitted,
+            Self::Surface(_) | Self::Ray { .. } => false,
+        }
+    }
+
+    /// From the last surface that light meets.
+    fn segments(&self) -> u32 {
+        u32::from(!matches!(self, Self::Flux(_)))
     }
 
     /// A place that light is thrown on; `None` of a flux, on which it lands, and of rays.
@@ -163,10 +182,7 @@ fn add(
 
 impl Catch for AtMeters<'_, '_> {
     fn segments(&self, slot: u32) -> u32 {
-        match self.meter(slot) {
-            Meter::Flux(_) => 0,
-            _ => 1,
-        }
+        self.meter(slot).segments()
     }
 
     fn fly(&mut self, particle: &Particle, reach: Option<f32>, waves: &Wavelengths) {

@@ -7,7 +7,7 @@
 //! | sensor | what is missing |
 //! |---|---|
 //! | camera | what a polished surface in view shows: the image of the light, and the image of what the light was thrown on |
-//! | irradiance at points | what comes to them from polished surfaces straight |
+//! | irradiance at points | what a polished surface sends to them last |
 //! | radiance | all of it |
 //! | flux | nothing |
 //!
@@ -28,12 +28,7 @@ pub(super) fn unsampled<'s>(
     sensors: impl Iterator<Item = &'s Sensor> + Clone,
 ) -> Vec<String> {
     let lack = sensors.clone().filter_map(lack).max();
-    let mut classes = thrown(scene, |light, material| match lack {
-        _ if is_untraced(scene, light, material) => Some(""),
-        Some(Lack::Straight) => Some(", straight to points at which it is measured"),
-        Some(Lack::Whole) => Some(""),
-        None => None,
-    });
+    let mut classes = lacking(scene, lack);
     for sensor in sensors.filter(|sensor| counts_what_leaves_a_pane(scene, sensor)) {
         let through = |light: &Light| {
             let (light, sensor) = (&light.name, &sensor.name);
@@ -43,6 +38,15 @@ pub(super) fn unsampled<'s>(
         classes.extend(far.map(through));
     }
     classes
+}
+
+fn lacking(scene: &Scene, lack: Option<Lack>) -> Vec<String> {
+    thrown(scene, |light, material| match lack {
+        _ if is_untraced(scene, light, material) => Some(""),
+        Some(Lack::Straight) => Some(", as polished surfaces show it to points of readings"),
+        Some(Lack::Whole) => Some(""),
+        None => None,
+    })
 }
 
 /// What a meter does not have of light that polished surfaces throw.
@@ -62,8 +66,11 @@ fn lack(sensor: &Sensor) -> Option<Lack> {
     }
 }
 
-/// One sentence for each class that is missing from any of a scene's sensors.
+/// One sentence for each class that is missing from any of a scene's sensors, or that a sensor would lack if it has none.
 pub fn unsampled_by_any(scene: &Scene) -> Vec<String> {
+    if scene.sensors().is_empty() {
+        return lacking(scene, Some(Lack::Whole));
+    }
     let mut classes = unsampled(scene, scene.sensors().iter());
     for sensor in scene.sensors() {
         let Kind::Camera(camera) = &sensor.kind else {
@@ -184,8 +191,9 @@ fn counts_what_leaves_a_pane(scene: &Scene, sensor: &Sensor) -> bool {
 /// Shapes that send light from a single direction into a single direction.
 pub(super) fn polished_shapes(scene: &Scene) -> Vec<ShapeId> {
     let materials = scene.materials().iter();
+    // A pane lets light straight through, even if it reflects hardly any.
     let polished: Vec<_> = materials
-        .map(|(_, material)| missing(material).is_some())
+        .map(|(_, material)| material.is_pane() || missing(material).is_some())
         .collect();
     let is_polished = |part: &PartId| {
         let part = scene.parts()[part.0 as usize];

@@ -9,7 +9,7 @@
 //! being added to the former. The nets of a run are longer by a factor f: what branches share is stratified in two dimensions, whose error falls
 //! by another √f if edges cause it, and faster if not (Mitchell 1996), so V_c/√f is what counts.
 //!
-//! Costs are counted in rays, [two](STEM) of the stem and R of a path: unlike times they are the same in every run.
+//! Costs are counted in rays, [two](STEM) of the stem, more if it has a path from a light, and R of a path: unlike times they are the same in every run.
 //!
 //! Source: D. Mitchell, *Consequences of stratified sampling in graphics* (SIGGRAPH 1996).
 
@@ -45,18 +45,22 @@ pub(in super::super) fn suited(
     threads: usize,
     (stems, nets): (usize, usize),
     longer: f64,
-    follow: impl Fn(Branches) -> (Vec<f64>, u64) + Sync,
+    follow: impl Fn(Branches) -> (Vec<f64>, Rays) + Sync,
 ) -> Branches {
     let (means, rays) = of_each_branch(threads, follow);
-    let rays = rays as f64 / (means.len() * stems) as f64 - 1.0;
-    Branches::all(Variances::of(&means, nets).best(rays.max(0.0), longer))
+    let [path, beside] = rays.map(|rays| rays as f64 / (means.len() * stems) as f64);
+    let costs = Costs {
+        stem: STEM + beside,
+        path: (path - 1.0).max(0.0),
+    };
+    Branches::all(Variances::of(&means, nets).best(&costs, longer))
 }
 
 /// The means of the nets of each branch, and the rays of all, a thread for each branch if there are several.
 fn of_each_branch(
     threads: usize,
-    follow: impl Fn(Branches) -> (Vec<f64>, u64) + Sync,
-) -> ([Vec<f64>; BRANCHES as usize], u64) {
+    follow: impl Fn(Branches) -> (Vec<f64>, Rays) + Sync,
+) -> ([Vec<f64>; BRANCHES as usize], Rays) {
     let all = [0, 1, 2, 3].map(Branches::only);
     let found = if threads == 1 {
         all.map(&follow)
@@ -70,8 +74,17 @@ fn of_each_branch(
             })
         })
     };
-    let rays = found.iter().map(|(_, rays)| rays).sum();
+    let rays = [0, 1].map(|kind| found.iter().map(|(_, rays)| rays[kind]).sum());
     (found.map(|(means, _)| means), rays)
+}
+
+/// Of paths with their stems, and beside them.
+pub(in super::super) type Rays = [u64; 2];
+
+/// In rays, of what branches share and of each.
+struct Costs {
+    stem: f64,
+    path: f64,
 }
 
 /// V_c and V_p, relative and of a net.
@@ -101,13 +114,12 @@ impl Variances {
         sum
     }
 
-    /// The number of branches, up to [`BRANCHES`], of the greatest efficiency, with so many rays to a path and nets that are longer than the
-    /// pilot's by a factor.
-    fn best(&self, rays: f64, longer: f64) -> u32 {
+    /// The number of branches, up to [`BRANCHES`], of the greatest efficiency, with nets that are longer than the pilot's by a factor.
+    fn best(&self, costs: &Costs, longer: f64) -> u32 {
         let shared = self.shared.max(0.0) / longer.max(1.0).sqrt();
         let cost = |count: u32| {
             let k = f64::from(count);
-            (shared + self.own / k) * (STEM + k * rays)
+            (shared + self.own / k) * (costs.stem + k * costs.path)
         };
         let mut best = 1;
         while best < BRANCHES && cost(2 * best) < CLEARLY * cost(best) {
@@ -132,11 +144,15 @@ mod tests {
     /// which is what ½ comes to in nets 16 times as long.
     #[test]
     fn the_best_number_by_hand() {
-        let best = |shared: f64, longer: f64| Variances { shared, own: 1.0 }.best(2.0, longer);
+        let costs = Costs {
+            stem: STEM,
+            path: 2.0,
+        };
+        let best = |shared: f64, longer: f64| Variances { shared, own: 1.0 }.best(&costs, longer);
         assert_eq!(best(1.0, 1.0), 1);
         assert_eq!(best(0.0, 1.0), 4);
         assert_eq!([best(0.125, 1.0), best(0.5, 16.0)], [2, 2]);
-        assert_eq!(Variances::default().best(3.0, 1.0), 1);
+        assert_eq!(Variances::default().best(&costs, 1.0), 1);
     }
 
     /// Nets of mean 9 and 11, whose branches are all alike; and such of mean 10 whose branches are 10 ± 1, the variance 4/3 of each.
@@ -176,8 +192,8 @@ mod tests {
 
     #[test]
     fn branches_are_followed_alike_on_one_thread_and_on_several() {
-        let follow = |branch: Branches| (vec![f64::from(branch.first)], 10);
-        let expected = ([0.0, 1.0, 2.0, 3.0].map(|number| vec![number]), 40);
+        let follow = |branch: Branches| (vec![f64::from(branch.first)], [10, 1]);
+        let expected = ([0.0, 1.0, 2.0, 3.0].map(|number| vec![number]), [40, 4]);
         for threads in [1, 2] {
             assert_eq!(of_each_branch(threads, follow), expected);
         }

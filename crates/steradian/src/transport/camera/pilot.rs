@@ -38,7 +38,7 @@ impl<'a> CameraSampler<'a> {
             let batches = 0..PIXELS / PIXELS_OF_A_BATCH;
             let means = batches.map(|batch| self.means(film, (key, batch), (branches, &mut paths)));
             let means = means.collect::<Vec<_>>().concat();
-            (means, paths.watch.times.rays)
+            (means, [paths.watch.times.rays, 0])
         })
     }
 

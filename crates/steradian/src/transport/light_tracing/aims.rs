@@ -2,7 +2,7 @@
 //!
 //! A path that is sent to a shape counts only if that is what it meets first; so lights and shapes divide all paths among them, however the
 //! shapes' balls overlap. A light at a point sends into the cone that the ball around a shape subtends (a beam narrower than that into
-//! the beam) or to the points of a rectangle, parallel light through the disc of that ball or through the rectangle:
+//! the beam) or to the points of a rectangle, parallel light through the disc of that ball or through a parallelogram:
 //!
 //! Φ = I(d) ω/P or E A/P
 //!
@@ -20,8 +20,7 @@ use std::f64::consts::PI;
 use glam::Vec3;
 
 use super::ball::{Ball, Obstacles};
-use super::bundle::{Bundle, Target};
-use crate::geometry::{Point, Vector};
+use super::bundle::{Bundle, Panel, Target};
 use crate::material::Site;
 use crate::sampling::discrete::Discrete;
 use crate::shape::{Form, ShapeId};
@@ -31,8 +30,6 @@ use crate::transport::unsampled::{is_out_of_reach, polished_shapes};
 
 /// More pairs of lights and shapes than this are not told apart: each light is sent to all shapes at once.
 const PAIRS: usize = 1 << 16;
-/// Cosine of the edges' angle up to which a parallelogram is a rectangle.
-const SQUARENESS: f64 = 1e-9;
 /// The part of all paths that is dealt out evenly.
 const EVENLY: f64 = 0.1;
 
@@ -129,7 +126,7 @@ fn targets(tables: &Tables<'_>, lamps: usize) -> Vec<Target> {
         let ball = ball(id);
         Target {
             shape: Some(*id),
-            rectangle: rectangle(&surfaces.shape(*id).form, surfaces.clearance()),
+            panel: panel(&surfaces.shape(*id).form),
             has_planes: ball.is_none(),
             ball,
         }
@@ -141,21 +138,19 @@ fn targets(tables: &Tables<'_>, lamps: usize) -> Vec<Target> {
     vec![Target {
         shape: None,
         ball: Ball::around_all(&balls),
-        rectangle: None,
+        panel: None,
         has_planes: balls.len() < shapes.len(),
     }]
 }
 
-/// A corner and the edges of a rectangle that is wider by a margin; `None` of other forms.
-fn rectangle(form: &Form, margin: f64) -> Option<(Point, [Vector; 2])> {
-    let Form::Parallelogram(form) = form else {
-        return None;
-    };
-    let [a, b] = form.edges;
-    let wider = |edge: Vector| edge * (margin / edge.length());
-    let corner = form.origin - wider(a) - wider(b);
-    let is_square = a.dot(b).abs() <= SQUARENESS * a.length() * b.length();
-    is_square.then(|| (corner, [a, b].map(|edge| edge + wider(edge) * 2.0)))
+fn panel(form: &Form) -> Option<Panel> {
+    match form {
+        Form::Parallelogram(form) => Some(Panel {
+            corner: form.origin,
+            edges: form.edges,
+        }),
+        _ => None,
+    }
 }
 
 impl Aim {

@@ -159,6 +159,10 @@ impl<'a> Arrival<'a> {
         let is_beyond = cos_leaving < 0.0;
         let encounter = self.encounter_from(direction, is_beyond);
         let side = &self.tables.sides[encounter.side as usize];
+        // Nothing gets through a surface whose sides are not of one material.
+        if side.material != self.side.material {
+            return None;
+        }
         let brdf = self.tables.brdf(side, &self.site, self.wavelengths)?;
         let normal = self.tables.shading_normal(&encounter)?;
         let is_inverted = side.transmits && !encounter.is_at_front();

@@ -1,11 +1,11 @@
-//! The rays from a light without extent to a polished shape: to the ball around it, or to a rectangle itself.
+//! The rays from a light without extent to a polished shape: to the ball around it, or to a parallelogram itself.
 //!
 //! | bundle | of | drawn evenly by |
 //! |---|---|---|
 //! | cone | light at a point, to a ball | solid angle |
 //! | window | light at a point, to a rectangle | solid angle |
 //! | shaft | parallel light, to a ball | area facing the light |
-//! | prism | parallel light, to a rectangle | area facing the light |
+//! | prism | parallel light, to a parallelogram | area facing the light |
 
 use std::f64::consts::{PI, TAU};
 
@@ -22,10 +22,17 @@ pub(super) struct Target {
     pub shape: Option<ShapeId>,
     /// Around all of it that is bounded.
     pub ball: Option<Ball>,
-    /// A corner and the edges of a rectangle around it, if it is one.
-    pub rectangle: Option<(Point, [Vector; 2])>,
+    /// What it is, if it is a parallelogram.
+    pub panel: Option<Panel>,
     /// Whether there are planes, of which only light at a point finds the polish.
     pub has_planes: bool,
+}
+
+/// A parallelogram.
+#[derive(Clone, Copy)]
+pub(super) struct Panel {
+    pub corner: Point,
+    pub edges: [Vector; 2],
 }
 
 /// Rays that are drawn evenly by solid angle or by area.
@@ -42,12 +49,12 @@ pub(super) struct Window {
     rectangle: SphericalRectangle,
 }
 
-/// From a rectangle in kernel coordinates.
+/// From a parallelogram in kernel coordinates.
 pub(super) struct Prism {
     corner: Vector,
     edges: [Vector; 2],
     direction: [f32; 3],
-    /// Of the rectangle, facing the light.
+    /// Facing the light.
     area: f64,
 }
 
@@ -73,24 +80,8 @@ impl Bundle {
         light: &Light,
         target: &Target,
     ) -> Option<Self> {
-        let from = |position: Point, start: Point, beam: Option<(Direction, Beam)>| {
-            let apex = surfaces.to_kernel(start);
-            let ball = target.ball.filter(|_| !target.has_planes);
-            let cone = Cone::around(apex, ball.map(|ball| (ball.center - position, ball.radius)));
-            let cone = match beam {
-                Some((axis, beam)) => cone.within(axis, cutoff(beam))?,
-                None => cone,
-            };
-            let window = target.rectangle.and_then(|(corner, edges)| {
-                let rectangle = SphericalRectangle::new(corner - position, edges)?;
-                Some(Self::Window(Window { apex, rectangle }))
-            });
-            let cone = Self::Cone(cone);
-            Some(
-                window
-                    .filter(|window| window.measure() < cone.measure())
-                    .unwrap_or(cone),
-            )
+        let from = |position: Point, start: Point, beam| {
+            Self::from_point(surfaces, (position, start), beam, target)
         };
         match &light.kind {
             Kind::Point(light) => from(light.position, light.position, None),
@@ -105,19 +96,49 @@ impl Bundle {
             Kind::Directional { direction, .. } => {
                 let ball = target.ball.as_ref()?;
                 let reach = obstacles.upstream(ball, *direction) + surfaces.clearance();
-                Some(target.rectangle.map_or_else(
-                    || Self::Shaft(Shaft::new(surfaces, *direction, (ball, reach))),
-                    |rectangle| {
-                        Self::Prism(Prism::new(
-                            surfaces,
-                            *direction,
-                            (rectangle, reach + ball.radius),
-                        ))
-                    },
-                ))
+                Some(Self::along(surfaces, *direction, (ball, reach), target))
             }
             _ => None,
         }
+    }
+
+    /// Of light at a point that rays leave from `start`.
+    fn from_point(
+        surfaces: &Surfaces,
+        (position, start): (Point, Point),
+        beam: Option<(Direction, Beam)>,
+        target: &Target,
+    ) -> Option<Self> {
+        let apex = surfaces.to_kernel(start);
+        let ball = target.ball.filter(|_| !target.has_planes);
+        let cone = Cone::around(apex, ball.map(|ball| (ball.center - position, ball.radius)));
+        let cone = Self::Cone(match beam {
+            Some((axis, beam)) => cone.within(axis, cutoff(beam))?,
+            None => cone,
+        });
+        let window = target.panel.and_then(|panel| {
+            let way = (panel.corner - position).length();
+            let panel = panel.wider(surfaces.clearance().max(ROUNDING_OF_WAYS * way));
+            let rectangle = SphericalRectangle::new(panel.corner - position, panel.edges)?;
+            Some(Self::Window(Window { apex, rectangle }))
+        });
+        let window = window.filter(|window| window.measure() < cone.measure());
+        Some(window.unwrap_or(cone))
+    }
+
+    /// Of parallel light that starts so far before a ball.
+    fn along(
+        surfaces: &Surfaces,
+        direction: Direction,
+        (ball, reach): (&Ball, f64),
+        target: &Target,
+    ) -> Self {
+        let Some(panel) = target.panel else {
+            return Self::Shaft(Shaft::new(surfaces, direction, (ball, reach)));
+        };
+        let reach = reach + ball.radius;
+        let panel = panel.wider(surfaces.clearance().max(ROUNDING_OF_WAYS * reach));
+        Self::Prism(Prism::new(surfaces, direction, (panel, reach)))
     }
 
     /// Solid angle or area.
@@ -203,12 +224,28 @@ impl Shaft {
     }
 }
 
+/// Of the places to which rays in f32 lead, relative to the way.
+const ROUNDING_OF_WAYS: f64 = 1.0 / (1 << 21) as f64;
+
+impl Panel {
+    /// The same with a margin.
+    fn wider(self, margin: f64) -> Self {
+        let [a, b] = self.edges;
+        let sine = a.cross(b).length() / (a.length() * b.length());
+        let step = |edge: Vector| edge * (margin / (sine * edge.length()));
+        Self {
+            corner: self.corner - step(a) - step(b),
+            edges: [a, b].map(|edge| edge + step(edge) * 2.0),
+        }
+    }
+}
+
 impl Prism {
-    /// Through a rectangle, from so far before it.
+    /// Through a parallelogram, from so far before it.
     fn new(
         surfaces: &Surfaces,
         direction: Direction,
-        ((corner, edges), reach): ((Point, [Vector; 2]), f64),
+        (Panel { corner, edges }, reach): (Panel, f64),
     ) -> Self {
         Self {
             corner: corner - surfaces.origin() - direction * reach,

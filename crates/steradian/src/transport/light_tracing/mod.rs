@@ -77,6 +77,8 @@ pub(super) struct Flock {
     arriving: Vec<Particle>,
     rays: RayBatch,
     hits: HitBatch,
+    /// Rays so far, one that draws a line to a sensor not counted.
+    pub traced: u64,
 }
 
 impl LightTracer<'_> {
@@ -116,6 +118,7 @@ impl LightTracer<'_> {
             let (origin, direction) = (particle.origin, particle.direction);
             flock.rays.push(origin, direction, f32::INFINITY);
         }
+        flock.traced += flock.flying.len() as u64;
         let surfaces = self.tables.scene.surfaces();
         surfaces.closest(&flock.rays, &mut flock.hits, self.set);
         std::mem::swap(&mut flock.flying, &mut flock.arriving);

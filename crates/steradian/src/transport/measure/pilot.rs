@@ -28,7 +28,8 @@ impl Meters<'_> {
             let nets = first.map(|first| self.nets(first));
             let means = nets.map(|runs| self.means(&runs, branches, &mut workspace));
             let means = means.collect::<Vec<_>>().concat();
-            (means, workspace.paths.watch.times.rays)
+            let rays = [workspace.paths.watch.times.rays, workspace.catching.rays()];
+            (means, rays)
         })
     }
 
@@ -50,6 +51,7 @@ impl Meters<'_> {
     fn means(&self, runs: &[Run], branches: Branches, workspace: &mut MeterWorkspace) -> Vec<f64> {
         let mut sums = vec![0.0; runs.len()];
         self.follow(runs, |_| branches, workspace);
+        self.follow_light(runs, workspace);
         self.read(runs, workspace, |run, columns| {
             let weights = &self.weights[self.streams[runs[run].stream as usize].sensor];
             let weighted = columns.iter().zip(weights);

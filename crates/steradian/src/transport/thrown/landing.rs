@@ -11,7 +11,7 @@ use super::super::light_tracing::{Departure, Particle};
 use super::super::tables::{Lanes4, Model, Side, Tables};
 use crate::geometry::{Direction, Point, Vector};
 use crate::sensor::FluxOf;
-use crate::shape::{Crossing, Ray};
+use crate::shape::{Crossing, Form, Ray};
 use crate::spectrum::Wavelengths;
 
 const NOTHING: Lanes4 = [0.0; 4];
@@ -20,7 +20,7 @@ const NOTHING: Lanes4 = [0.0; 4];
 pub(super) struct Landing<'a>(pub &'a FluxMeter<'a>);
 
 impl Landing<'_> {
-    /// What a flight through a surface that does not block light brings.
+    /// What a flight through a surface that does not block light brings: it stands as far before what it lies on as where paths from it start.
     pub fn passing(
         &self,
         tables: &Tables<'_>,
@@ -29,18 +29,20 @@ impl Landing<'_> {
         waves: &Wavelengths,
     ) -> Lanes4 {
         let mut sum = NOTHING;
-        let virtual_forms = self.0.forms.iter().filter(|(_, parts, _)| parts.is_none());
-        for (form, ..) in virtual_forms {
-            let Some(ray) = ray(tables, particle, reach) else {
-                continue;
-            };
-            form.crossings(&ray, |crossing| {
-                let kept = particle.kept(tables, crossing.distance as f32, waves);
-                let (flux, sign) = (particle.carried(), self.sign(crossing));
-                add(&mut sum, |lane| sign * flux[lane] * kept[lane]);
-            });
-        }
+        let (Some(form), Some(ray)) = (self.virtual_form(), ray(tables, particle, reach)) else {
+            return sum;
+        };
+        form.crossings(&ray, |crossing| {
+            let kept = particle.kept(tables, crossing.distance as f32, waves);
+            let (flux, sign) = (particle.carried(), self.sign(crossing));
+            add(&mut sum, |lane| sign * flux[lane] * kept[lane]);
+        });
         sum
+    }
+
+    fn virtual_form(&self) -> Option<&Form> {
+        let (form, parts, _) = self.0.forms.first()?;
+        parts.is_none().then_some(form)
     }
 
     fn sign(&self, crossing: Crossing) -> f32 {
@@ -103,8 +105,7 @@ impl Landing<'_> {
     fn has(&self, tables: &Tables<'_>, hit: &Hit) -> bool {
         let surfaces = tables.scene.surfaces();
         let first = surfaces.first_primitive(surfaces.shape_of(hit.primitive));
-        let firsts = self.0.forms.iter().filter_map(|(_, parts, _)| *parts);
-        firsts.map(|(_, first)| first).any(|own| own == first)
+        self.0.shapes.binary_search(&first).is_ok()
     }
 }
 
@@ -125,5 +126,6 @@ fn ray(tables: &Tables<'_>, particle: &Particle, reach: Option<f32>) -> Option<R
         origin,
         direction: Direction::new(vector(particle.direction)).ok()?,
         reach: reach.map_or(f64::INFINITY, f64::from),
+        clearance: tables.scene.surfaces().clearance(),
     })
 }
