@@ -7,6 +7,7 @@ mod glass;
 mod meters;
 mod mirrors;
 mod normals;
+mod passing;
 mod pictures;
 
 use steradian::estimation::{Estimate, Plan, Silent, Stopping};

@@ -61,13 +61,18 @@ pub(super) struct Start {
 impl Aims {
     /// `None` if there is no such light or nothing polished that it could be sent to.
     pub fn new(tables: &Tables<'_>) -> Option<Self> {
+        Self::up_to(PAIRS, tables)
+    }
+
+    /// With so many pairs at most that are told apart.
+    fn up_to(pairs: usize, tables: &Tables<'_>) -> Option<Self> {
         let surfaces = tables.scene.surfaces();
         let lamps = tables.extended..tables.emitters.len();
         if lamps.is_empty() {
             return None;
         }
         let obstacles = Obstacles::new(surfaces);
-        let targets = targets(tables, lamps.len());
+        let targets = targets(tables, lamps.len(), pairs);
         let of_lamp = |emitter: usize| {
             let light = &tables.scene.lights()[tables.emitters[emitter].light];
             let is_near = !is_out_of_reach(tables.scene, light);
@@ -118,7 +123,7 @@ impl Aims {
 }
 
 /// Polished shapes with balls around them, or all of them at once.
-fn targets(tables: &Tables<'_>, lamps: usize) -> Vec<Target> {
+fn targets(tables: &Tables<'_>, lamps: usize, pairs: usize) -> Vec<Target> {
     let surfaces = tables.scene.surfaces();
     let shapes = polished_shapes(tables.scene);
     let ball = |id: &ShapeId| Ball::around(&surfaces.shape(*id).form, surfaces.clearance());
@@ -131,7 +136,7 @@ fn targets(tables: &Tables<'_>, lamps: usize) -> Vec<Target> {
             ball,
         }
     };
-    if shapes.len() * lamps <= PAIRS {
+    if shapes.len() * lamps <= pairs {
         return shapes.iter().map(target).collect();
     }
     let balls: Vec<_> = shapes.iter().filter_map(ball).collect();
@@ -180,3 +185,6 @@ fn factor(tables: &Tables<'_>, emitter: &Emitter, direction: Vec3) -> f32 {
         _ => 1.0,
     }
 }
+
+#[cfg(test)]
+mod tests;
