@@ -4,7 +4,7 @@
 //! straight through at the angle of the segment; 0 at the first surface that lets nothing pass. Without such surfaces in the
 //! scene it is the kernel's any-hit query; else the segments that it stops are followed from surface to surface.
 
-use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
+use steradian_kernel::{HitBatch, InstructionSet, MISS, Ray, RayBatch};
 
 use super::interaction::hit;
 use super::tables::{Lanes4, Tables};
@@ -16,6 +16,7 @@ pub(super) struct Transmittance {
     stopped: Vec<bool>,
     /// T of each segment that was stopped; empty where no surface lets anything pass.
     parts: Vec<Lanes4>,
+    stepping: Stepping,
 }
 
 impl Transmittance {
@@ -34,7 +35,9 @@ impl Transmittance {
         self.parts.clear();
         if tables.lets_pass {
             self.parts.resize(self.stopped.len(), [0.0; 4]);
-            Stepping::new(rays, &self.stopped).follow(tables, &mut self.parts, wavelengths, set);
+            self.stepping.begin(rays, &self.stopped);
+            self.stepping
+                .follow(tables, &mut self.parts, wavelengths, set);
         }
     }
 
@@ -64,82 +67,104 @@ impl Transmittance {
 }
 
 /// Segments that are followed from surface to surface.
+#[derive(Default)]
 struct Stepping {
+    open: Segments,
+    /// Those that go on behind a surface.
+    beyond: Segments,
+    hits: HitBatch,
+}
+
+#[derive(Default)]
+struct Segments {
     rays: RayBatch,
-    /// Number of the segment, its end (`None`: infinitely far), and T so far.
-    open: Vec<(usize, Option<[f32; 3]>, Lanes4)>,
+    all: Vec<Segment>,
+}
+
+#[derive(Copy, Clone)]
+struct Segment {
+    number: usize,
+    /// Infinitely far if there is none.
+    end: Option<[f32; 3]>,
+    /// T so far.
+    part: Lanes4,
+}
+
+impl Segments {
+    fn clear(&mut self) {
+        self.rays.clear();
+        self.all.clear();
+    }
+
+    fn push(&mut self, (origin, span, t_max): ([f32; 3], [f32; 3], f32), segment: Segment) {
+        self.rays.push(origin, span, t_max);
+        self.all.push(segment);
+    }
 }
 
 impl Stepping {
-    fn new(rays: &RayBatch, occluded: &[bool]) -> Self {
-        let mut stepping = Self {
-            rays: RayBatch::default(),
-            open: vec![],
-        };
-        for (i, _) in occluded.iter().enumerate().filter(|(_, stopped)| **stopped) {
-            let origin = [rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]];
-            let span = [
-                rays.direction_x[i],
-                rays.direction_y[i],
-                rays.direction_z[i],
-            ];
-            let end = (rays.t_max[i] == 1.0).then(|| std::array::from_fn(|k| origin[k] + span[k]));
-            stepping.rays.push(origin, span, rays.t_max[i]);
-            stepping.open.push((i, end, [1.0; 4]));
+    fn begin(&mut self, rays: &RayBatch, occluded: &[bool]) {
+        self.open.clear();
+        for (number, _) in occluded.iter().enumerate().filter(|(_, stopped)| **stopped) {
+            let Ray {
+                origin,
+                direction,
+                t_max,
+            } = rays.ray(number);
+            let end = std::array::from_fn(|axis| origin[axis] + direction[axis]);
+            let segment = Segment {
+                number,
+                end: (t_max == 1.0).then_some(end),
+                part: [1.0; 4],
+            };
+            self.open.push((origin, direction, t_max), segment);
         }
-        stepping
     }
 
     fn follow<'w>(
-        mut self,
+        &mut self,
         tables: &Tables<'_>,
         out: &mut [Lanes4],
         wavelengths: impl Fn(usize) -> &'w Wavelengths,
         set: InstructionSet,
     ) {
-        let mut hits = HitBatch::default();
-        while !self.open.is_empty() {
-            tables.scene.surfaces().closest(&self.rays, &mut hits, set);
-            self = self.step(tables, &hits, out, &wavelengths);
+        let surfaces = tables.scene.surfaces();
+        while !self.open.all.is_empty() {
+            surfaces.closest(&self.open.rays, &mut self.hits, set);
+            self.step(tables, out, &wavelengths);
+            std::mem::swap(&mut self.open, &mut self.beyond);
         }
     }
 
     fn step<'w>(
-        self,
+        &mut self,
         tables: &Tables<'_>,
-        hits: &HitBatch,
         out: &mut [Lanes4],
         wavelengths: &impl Fn(usize) -> &'w Wavelengths,
-    ) -> Self {
-        let mut next = Self {
-            rays: RayBatch::default(),
-            open: vec![],
-        };
-        for (i, &(segment, end, before)) in self.open.iter().enumerate() {
-            if hits.primitive[i] == MISS {
-                out[segment] = before;
+    ) {
+        self.beyond.clear();
+        for (i, segment) in self.open.all.iter().enumerate() {
+            if self.hits.primitive[i] == MISS {
+                out[segment.number] = segment.part;
                 continue;
             }
-            let hit = hit(tables, &self.rays, hits, i);
+            let hit = hit(tables, &self.open.rays, &self.hits, i);
             let side = &tables.sides[hit.side as usize];
             if !side.lets_pass() {
                 continue;
             }
-            let passes = tables.passing(side, &hit, wavelengths(segment));
+            let passes = tables.passing(side, &hit, wavelengths(segment.number));
             if passes != [0.0; 4] {
                 let origin = hit.place.beyond();
-                let rays = &self.rays;
-                let old = [
-                    rays.direction_x[i],
-                    rays.direction_y[i],
-                    rays.direction_z[i],
-                ];
-                let span = end.map_or(old, |end| std::array::from_fn(|k| end[k] - origin[k]));
-                next.rays.push(origin, span, rays.t_max[i]);
-                let part = std::array::from_fn(|lane| before[lane] * passes[lane]);
-                next.open.push((segment, end, part));
+                let Ray {
+                    direction, t_max, ..
+                } = self.open.rays.ray(i);
+                let to = |end: [f32; 3]| std::array::from_fn(|axis| end[axis] - origin[axis]);
+                let span = segment.end.map_or(direction, to);
+                let part = std::array::from_fn(|lane| segment.part[lane] * passes[lane]);
+                self.beyond
+                    .push((origin, span, t_max), Segment { part, ..*segment });
             }
         }
-        next
     }
 }

@@ -4,7 +4,7 @@ use super::exposure::PassImage;
 use super::session::Effort;
 use super::splat::{BUNDLE, Bundle, Splatter};
 use super::tile::{BUFFER_SIDE, Job, RIM, SLICE, Task, Tile};
-use super::{CHANNELS, Film};
+use super::{CHANNELS, Film, Splat};
 use crate::estimation::EstimationError;
 use crate::estimation::crew::{Ledger, Standing};
 use crate::sampling::hash::combine;
@@ -21,6 +21,7 @@ pub(super) struct PassLedger<'a> {
     done: u64,
     merged: usize,
     spare: Vec<Vec<[f32; CHANNELS]>>,
+    spare_splats: Vec<Vec<Splat>>,
     splatter: Splatter,
     /// How many samples choose their own places, are issued, and are merged.
     splats: [u32; 3],
@@ -46,6 +47,7 @@ impl<'a> PassLedger<'a> {
             done: 0,
             merged: 0,
             spare: Vec::new(),
+            spare_splats: Vec::new(),
             splatter: Splatter::new(film),
             splats: [effort.splats, 0, 0],
         }
@@ -107,7 +109,7 @@ impl PassLedger<'_> {
         (!indices.is_empty()).then(|| Bundle {
             indices,
             key: combine(self.film.key, self.key),
-            splats: Vec::new(),
+            splats: self.spare_splats.pop().unwrap_or_default(),
         })
     }
 
@@ -122,14 +124,15 @@ impl PassLedger<'_> {
         Ok(())
     }
 
-    fn merge_splats(&mut self, bundle: &Bundle) -> Result<(), EstimationError> {
+    fn merge_splats(&mut self, mut bundle: Bundle) -> Result<(), EstimationError> {
         bundle.check()?;
         let scale = 1.0 / f64::from(self.splats[0]);
-        for splat in &bundle.splats {
-            self.splatter.add(splat, scale, &mut self.sums);
+        for splat in bundle.splats.drain(..) {
+            self.splatter.add(&splat, scale, &mut self.sums);
         }
         self.standing.samples += bundle.indices.len() as u64;
         self.splats[2] = bundle.indices.end;
+        self.spare_splats.push(bundle.splats);
         Ok(())
     }
 }
@@ -145,7 +148,7 @@ impl Ledger for &mut PassLedger<'_> {
     fn merge(&mut self, task: Task) -> Result<(), EstimationError> {
         match task {
             Task::Tile(job) => self.merge_tile(job),
-            Task::Splats(bundle) => self.merge_splats(&bundle),
+            Task::Splats(bundle) => self.merge_splats(bundle),
         }
     }
 
