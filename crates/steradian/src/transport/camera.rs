@@ -13,7 +13,7 @@ use self::optics::Optics;
 use super::branching::{BRANCHES, Branches, LIGHT_BLOCK};
 use super::channels;
 use super::columns::{BATCH, Flight, Workspace};
-use super::light_tracing::{Aims, FilmTracer, LightTracer};
+use super::light_tracing::{Aims, FilmBatch, FilmTracer, LightTracer};
 use super::measure::WAVELENGTH_BLOCK;
 use super::path::Tracer;
 use super::profile::Stage;
@@ -38,6 +38,13 @@ pub(super) struct CameraSampler<'a> {
     branches: Branches,
     /// Finds what paths from here cannot, if there is any.
     light: Option<FilmTracer<'a>>,
+}
+
+/// Scratch of a thread.
+#[derive(Default)]
+pub(super) struct CameraWorkspace {
+    pub paths: Workspace,
+    light: FilmBatch,
 }
 
 impl<'a> CameraSampler<'a> {
@@ -109,23 +116,34 @@ impl<'a> CameraSampler<'a> {
 }
 
 impl PixelSampler for CameraSampler<'_> {
-    type Workspace = Workspace;
+    type Workspace = CameraWorkspace;
 
-    fn new_workspace(&self) -> Workspace {
-        Workspace::default()
+    fn new_workspace(&self) -> CameraWorkspace {
+        CameraWorkspace::default()
     }
 
-    fn sample(&self, batch: &PixelBatch<'_>, paths: &mut Workspace, out: &mut [[f32; 4]]) {
-        self.sample_by(self.branches, batch, paths, out);
+    fn sample(
+        &self,
+        batch: &PixelBatch<'_>,
+        workspace: &mut CameraWorkspace,
+        out: &mut [[f32; 4]],
+    ) {
+        self.sample_by(self.branches, batch, &mut workspace.paths, out);
     }
 
     fn has_splats(&self) -> bool {
         self.light.is_some()
     }
 
-    fn splat(&self, indices: Range<u32>, key: u64, _: &mut Workspace, out: &mut Vec<Splat>) {
+    fn splat(
+        &self,
+        indices: Range<u32>,
+        key: u64,
+        workspace: &mut CameraWorkspace,
+        out: &mut Vec<Splat>,
+    ) {
         if let Some(light) = &self.light {
-            light.trace(indices, key, out);
+            light.trace(indices, key, &mut workspace.light, out);
         }
     }
 }

@@ -124,13 +124,13 @@ impl FluxMeter<'_> {
         let reflected = (self.front, scattered(Some(false)), opacity, -1.0);
         let transmitted = (!self.front, scattered(Some(true)), opacity, -1.0);
         let arriving = |weight| (self.front, Looks::Outwards, weight, 1.0);
-        let parts = match self.of {
-            FluxOf::Incident => vec![arriving(1.0)],
-            FluxOf::Leaving => vec![(self.front, scattered(None), opacity, 1.0)],
-            FluxOf::Net => vec![arriving(1.0), all],
-            FluxOf::Absorbed if side.transmits => vec![arriving(opacity), reflected, transmitted],
-            FluxOf::Absorbed => vec![arriving(opacity), reflected],
-            FluxOf::Emitted => vec![arriving(0.0)],
+        let parts: &[_] = match self.of {
+            FluxOf::Incident => &[arriving(1.0)],
+            FluxOf::Leaving => &[(self.front, scattered(None), opacity, 1.0)],
+            FluxOf::Net => &[arriving(1.0), all],
+            FluxOf::Absorbed if side.transmits => &[arriving(opacity), reflected, transmitted],
+            FluxOf::Absorbed => &[arriving(opacity), reflected],
+            FluxOf::Emitted => &[arriving(0.0)],
         };
         let chosen = hash::mix_64(key ^ u64::from(index)) % parts.len() as u64;
         let (front, looks, weight, sign) = parts[chosen as usize];

@@ -116,6 +116,10 @@ impl Meter<'_> {
 #[derive(Default)]
 pub(super) struct MeterWorkspace {
     paths: Workspace,
+    /// Paths that look at the surface where they begin, while others are followed.
+    looking: Vec<Encounter>,
+    /// Runs that start alike.
+    alike: Vec<(usize, Run)>,
     sign: Vec<f64>,
     columns: Vec<f64>,
     catching: Catching,
@@ -176,21 +180,22 @@ impl<'a> Meters<'a> {
                 self.tracer.follow_branches(paths, candidates, branches);
             }
             Mode::Hemisphere { delta, still } => {
-                let encounters = std::mem::take(&mut paths.encounters);
+                workspace.looking.clear();
+                std::mem::swap(&mut paths.encounters, &mut workspace.looking);
                 let candidates = tables.for_meters(delta, Receiver::Irradiance);
                 self.look(paths, candidates, still);
                 self.tracer.follow_branches(paths, candidates, branches);
-                self.look_at_models(paths, encounters);
+                std::mem::swap(&mut paths.encounters, &mut workspace.looking);
+                self.look_at_models(paths);
             }
         }
     }
 
     /// Follows the paths that look at the surface where they begin.
-    fn look_at_models(&self, paths: &mut Workspace, encounters: Vec<Encounter>) {
-        if encounters.is_empty() || self.tracer.max_depth < 2 {
+    fn look_at_models(&self, paths: &mut Workspace) {
+        if paths.encounters.is_empty() || self.tracer.max_depth < 2 {
             return;
         }
-        paths.encounters = encounters;
         paths.flights.clear();
         scattering::scatter(&self.tracer, paths, 1);
         self.tracer
@@ -249,7 +254,8 @@ impl<'a> Meters<'a> {
             (stream.meter.mode(sums_lights), branches(stream))
         };
         let mut slot = 0;
-        let mut alike: Vec<(usize, Run)> = Vec::new();
+        let mut alike = std::mem::take(&mut workspace.alike);
+        alike.clear();
         for run in runs {
             if let Some((_, first)) = alike.first()
                 && kind(first) != kind(run)
@@ -263,6 +269,7 @@ impl<'a> Meters<'a> {
         if let Some((_, first)) = alike.first() {
             self.trace(kind(first), &alike, workspace);
         }
+        workspace.alike = alike;
     }
 
     /// Adds what paths from lights bring to the samples of runs.

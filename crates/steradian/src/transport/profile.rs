@@ -5,9 +5,9 @@
 
 use std::time::{Duration, Instant};
 
-use super::camera::CameraSampler;
+use super::camera::{CameraSampler, CameraWorkspace};
 use super::channels;
-use super::columns::{BATCH, Workspace};
+use super::columns::BATCH;
 use super::path::Tracer;
 use super::run::{RenderOptions, SimulationError, camera_of};
 use super::tables::Tables;
@@ -112,7 +112,7 @@ pub fn profile(
         camera,
         channels::density(scene, &scene.sensors()[sensor]),
     );
-    let mut paths = Workspace::default();
+    let mut workspace = CameraWorkspace::default();
     let mut out = [[0.0; 4]; BATCH];
     let keys = [options.plan.seed; BATCH];
     for batch in 0..batches {
@@ -142,7 +142,7 @@ pub fn profile(
             indices: &indices,
             keys: &keys,
         };
-        sampler.sample(&batch, &mut paths, &mut out);
+        sampler.sample(&batch, &mut workspace, &mut out);
     }
-    Ok(paths.watch.times)
+    Ok(workspace.paths.watch.times)
 }

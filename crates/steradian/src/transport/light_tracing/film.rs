@@ -29,6 +29,16 @@ use crate::transport::channels;
 use crate::transport::columns::BATCH;
 use crate::transport::tables::Lanes4;
 
+/// Scratch of a thread.
+#[derive(Default)]
+pub(in crate::transport) struct FilmBatch {
+    flock: Flock,
+    /// By slot.
+    wavelengths: Vec<Wavelengths>,
+    /// With their places on the film, in pixels.
+    connections: Connections<[f64; 2]>,
+}
+
 /// Traces light to a camera.
 pub(in crate::transport) struct FilmTracer<'a> {
     pub light: LightTracer<'a>,
@@ -41,12 +51,21 @@ pub(in crate::transport) struct FilmTracer<'a> {
 
 impl FilmTracer<'_> {
     /// Adds what paths of these indices bring.
-    pub fn trace(&self, indices: Range<u32>, key: u64, out: &mut Vec<Splat>) {
-        let mut flock = Flock::default();
-        let mut wavelengths = Vec::with_capacity(BATCH);
+    pub fn trace(
+        &self,
+        indices: Range<u32>,
+        key: u64,
+        batch: &mut FilmBatch,
+        out: &mut Vec<Splat>,
+    ) {
+        let FilmBatch {
+            flock,
+            wavelengths,
+            connections,
+        } = batch;
         let mut catch = OnFilm {
             tracer: self,
-            connections: Connections::default(),
+            connections,
             out,
         };
         let mut from = indices.start;
@@ -56,10 +75,10 @@ impl FilmTracer<'_> {
             for index in from..to {
                 let slot = wavelengths.len() as u32;
                 let waves = self.wavelengths(key, index);
-                self.light.launch((slot, key, index), &waves, &mut flock);
+                self.light.launch((slot, key, index), &waves, flock);
                 wavelengths.push(waves);
             }
-            self.light.follow(&mut flock, &wavelengths, &mut catch);
+            self.light.follow(flock, wavelengths, &mut catch);
             from = to;
         }
     }
@@ -98,8 +117,7 @@ impl FilmTracer<'_> {
 /// What a film takes.
 struct OnFilm<'t, 'a> {
     tracer: &'t FilmTracer<'a>,
-    /// With their places on the film, in pixels.
-    connections: Connections<[f64; 2]>,
+    connections: &'t mut Connections<[f64; 2]>,
     out: &'t mut Vec<Splat>,
 }
 

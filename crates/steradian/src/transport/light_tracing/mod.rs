@@ -30,7 +30,7 @@ mod particles;
 pub(super) use aims::Aims;
 pub(super) use arrival::{Arrival, Departure};
 pub(super) use connections::{Connection, Connections};
-pub(super) use film::FilmTracer;
+pub(super) use film::{FilmBatch, FilmTracer};
 pub(super) use particles::Particle;
 
 use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
