@@ -63,6 +63,10 @@ pub struct EnvironmentMap {
     frame: Frame,
     rows: Discrete,
     columns: Vec<Option<Discrete>>,
+    /// ω of a texel, by row.
+    patches: Vec<f64>,
+    /// sinλ at the lower and the upper border, by row.
+    borders: Vec<[f64; 2]>,
     integral: f64,
 }
 
@@ -108,6 +112,8 @@ impl EnvironmentMap {
             rows: Discrete::new(&sums).ok_or(EnvironmentError::Black)?,
             integral: sums.iter().sum(),
             columns,
+            patches: (0..height).map(|row| patch(&picture, row)).collect(),
+            borders: (0..height).map(|row| sines(&picture, row)).collect(),
             frame,
             picture,
         })
@@ -129,7 +135,7 @@ impl EnvironmentMap {
         let bright = PEAK * self.integral / (4.0 * PI);
         let of_row = |row: usize| -> f64 {
             let texels = (0..width).map(|column| luminance(&self.picture, row * width + column));
-            patch(&self.picture, row) * texels.filter(|texel| *texel > bright).sum::<f64>()
+            self.patches[row] * texels.filter(|texel| *texel > bright).sum::<f64>()
         };
         (0..height).map(of_row).sum::<f64>() / self.integral
     }
@@ -145,7 +151,7 @@ impl EnvironmentMap {
         let column = self.columns[row.index].as_ref()?.choose(v);
         let [width, _] = self.picture.size().map(f64::from);
         let across = (column.index as f64 + f64::from(column.remapped)) / width - 0.5;
-        let [below, above] = sines(&self.picture, row.index);
+        let [below, above] = self.borders[row.index];
         let up = above + (below - above) * f64::from(row.remapped);
         let ring = (1.0 - up * up).max(0.0).sqrt();
         // To the right of the middle is against the second axis.
@@ -155,7 +161,7 @@ impl EnvironmentMap {
         Some(EnvironmentSample {
             direction: Direction::from_unit(self.frame.vector_to_world(local)),
             texel,
-            pdf: row.probability * column.probability / patch(&self.picture, row.index),
+            pdf: row.probability * column.probability / self.patches[row.index],
         })
     }
 
@@ -164,7 +170,7 @@ impl EnvironmentMap {
         let [column, row] = self.texel(direction);
         let within = self.columns[row].as_ref();
         let chosen = within.map_or(0.0, |columns| columns.probability(column));
-        self.rows.probability(row) * chosen / patch(&self.picture, row)
+        self.rows.probability(row) * chosen / self.patches[row]
     }
 
     /// Column and row of the texel in a direction.

@@ -8,6 +8,9 @@
 pub struct Discrete {
     /// Upper ends of the intervals of [0, 1); the last is 1.
     ends: Vec<f64>,
+    /// By k = ⌊un⌋, a place among the ends from which few steps lead to that of u (H. Chen & Y. Asau 1974, *On generating random variates from an empirical
+    /// distribution*: in the mean no more than one).
+    guide: Vec<u32>,
 }
 
 /// What was chosen.
@@ -51,7 +54,8 @@ impl Discrete {
         // Rounding must not leave a gap below 1 nor give the zero weights at the end a sliver.
         let last = weights.iter().rposition(|&weight| weight > 0.0)?;
         ends[last..].fill(1.0);
-        Some(Self { ends })
+        let guide = guide(&ends);
+        Some(Self { ends, guide })
     }
 
     /// Number of things to choose from.
@@ -79,10 +83,7 @@ impl Discrete {
     #[must_use]
     pub fn choose(&self, u: f32) -> Choice {
         let place = f64::from(u);
-        let index = self
-            .ends
-            .partition_point(|&end| end <= place)
-            .min(self.len() - 1);
+        let index = self.find(place).min(self.len() - 1);
         let probability = self.probability(index);
         let remapped = ((place - self.start(index)) / probability) as f32;
         Choice {
@@ -92,6 +93,19 @@ impl Discrete {
         }
     }
 
+    /// The number of ends that are not above a place.
+    fn find(&self, place: f64) -> usize {
+        let k = (place * self.len() as f64) as usize;
+        let mut index = self.guide[k.min(self.len() - 1)] as usize;
+        while index > 0 && self.ends[index - 1] > place {
+            index -= 1;
+        }
+        while index < self.len() && self.ends[index] <= place {
+            index += 1;
+        }
+        index
+    }
+
     fn start(&self, index: usize) -> f64 {
         if index == 0 {
             0.0
@@ -99,6 +113,20 @@ impl Discrete {
             self.ends[index - 1]
         }
     }
+}
+
+/// The number of ends that are not above k/n, by k.
+fn guide(ends: &[f64]) -> Vec<u32> {
+    let count = ends.len();
+    let mut index = 0;
+    let at = |k: usize| {
+        let place = k as f64 / count as f64;
+        while index < count && ends[index] <= place {
+            index += 1;
+        }
+        index as u32
+    };
+    (0..count).map(at).collect()
 }
 
 #[cfg(test)]
@@ -131,6 +159,27 @@ mod tests {
         assert!(table.choose(BELOW_ONE).remapped < 1.0);
         assert_eq!(table.choose(0.0).index, 0);
         assert_eq!(Discrete::new(&[0.0, 1.0]).unwrap().choose(0.0).index, 1);
+    }
+
+    /// Where weights differ by many orders and ends lie on numbers that choose, the guide leads to what a search among all ends finds.
+    #[test]
+    fn the_guide_leads_to_the_place() {
+        for count in [1, 2, 3, 64, 1000] {
+            let weight = |k: usize| match k % 5 {
+                0 => 0.0,
+                1 => 1e-12,
+                _ => 0.5_f64.powi((k % 37) as i32),
+            };
+            let weights: Vec<_> = (0..count).map(|k| weight(k + 2)).collect();
+            let even = Discrete::new(&vec![1.0; count]).unwrap();
+            for table in [Discrete::new(&weights).unwrap(), even] {
+                for k in 0..1 << 14 {
+                    let place = f64::from(k) * 0.5_f64.powi(14);
+                    let searched = table.ends.partition_point(|&end| end <= place);
+                    assert_eq!(table.find(place), searched, "{count} {place}");
+                }
+            }
+        }
     }
 
     #[test]
