@@ -38,13 +38,23 @@ use crate::quantity::ProjectedSolidAngle;
 
 mod table;
 
-use table::Table;
+use table::{Interval, Table};
 
 /// A convex polygon as seen by a receiver at the origin whose normal is z.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct ProjectedPolygon {
     sectors: Vec<Sector>,
     area: f64,
+    /// Of the tables of all sectors.
+    intervals: Vec<Interval>,
+}
+
+/// Memory for making polygons, to be used again.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    visible: Vec<Vector>,
+    edges: Vec<Edge>,
+    corners: Vec<(f64, [f64; 2])>,
 }
 
 impl ProjectedPolygon {
@@ -52,31 +62,42 @@ impl ProjectedPolygon {
     ///
     /// The polygon must be plane and convex.
     pub fn new(corners: &[Vector]) -> Option<Self> {
-        let visible = above_horizon(corners);
-        let edges = edges(&visible);
-        let mut polygon = Self {
-            sectors: Vec::with_capacity(2 * visible.len()),
-            area: 0.0,
-        };
-        if edges.iter().all(|edge| edge.arc.normal[2] >= 0.0) {
-            for edge in &edges {
-                polygon.push([edge.from, edge.to], edge.arc, None);
-            }
-        } else {
-            polygon.push_between(&edges);
-        }
-        (polygon.area > 0.0).then_some(polygon)
+        let mut polygon = Self::default();
+        let is_seen = polygon.set(corners, &mut Scratch::default());
+        is_seen.then_some(polygon)
     }
 
-    /// The same, prepared for many samples: areas are tabulated, so that a sample need not iterate, where that moves samples by no more than some 2⁻²⁴ of
-    /// the polygon. It takes as long as some dozens of samples.
+    /// Becomes the polygon with these corners, in the memory that it has; false if nothing of it is seen above the horizon.
+    pub fn set(&mut self, corners: &[Vector], scratch: &mut Scratch) -> bool {
+        self.sectors.clear();
+        self.area = 0.0;
+        scratch.clip(corners);
+        let Scratch { edges, corners, .. } = scratch;
+        if edges.iter().all(|edge| edge.arc.normal[2] >= 0.0) {
+            for edge in edges {
+                self.push([edge.from, edge.to], edge.arc, None);
+            }
+        } else {
+            self.push_between(edges, corners);
+        }
+        self.area > 0.0
+    }
+
+    /// The same, prepared for many samples: see [`tabulate`](Self::tabulate).
     #[must_use]
     pub fn tabulated(mut self) -> Self {
-        for sector in &mut self.sectors {
-            let inner = sector.inner.as_ref();
-            sector.table = inner.and_then(|inner| Table::new(sector, inner));
-        }
+        self.tabulate();
         self
+    }
+
+    /// Prepares it for many samples: areas are tabulated, so that a sample need not iterate, where that moves samples by no more than some 2⁻²⁴ of
+    /// the polygon. It takes as long as some dozens of samples.
+    pub fn tabulate(&mut self) {
+        self.intervals.clear();
+        for sector in &mut self.sectors {
+            let table = |inner: Arc| Table::new(sector, &inner, &mut self.intervals);
+            sector.table = sector.inner.and_then(table);
+        }
     }
 
     /// Ω.
@@ -98,10 +119,9 @@ impl ProjectedPolygon {
             self.sectors[index - 1].end
         };
         let sector = &self.sectors[index];
-        let towards = sector.direction_at(
-            (wanted - before).clamp(0.0, sector.end - before),
-            sector.end - before,
-        );
+        let area = sector.end - before;
+        let wanted = (wanted - before).clamp(0.0, area);
+        let towards = sector.direction_at(wanted, area, &self.intervals);
         sector.within(towards, v)
     }
 
@@ -130,19 +150,20 @@ impl ProjectedPolygon {
     }
 
     /// Sectors of a polygon beside the zenith: between neighbouring corners by azimuth.
-    fn push_between(&mut self, edges: &[Edge]) {
+    fn push_between(&mut self, edges: &mut [Edge], corners: &mut Vec<(f64, [f64; 2])>) {
         let middle = edges.iter().fold([0.0; 2], |sum, edge| {
             [sum[0] + edge.weight[0], sum[1] + edge.weight[1]]
         });
         let turn = |e: [f64; 2]| libm::atan2(cross(middle, e), dot(middle, e));
-        let mut corners: Vec<_> = edges
-            .iter()
-            .map(|edge| (turn(edge.from), edge.from))
-            .collect();
+        corners.clear();
+        for edge in edges.iter_mut() {
+            edge.turns = [edge.from, edge.to].map(turn);
+            corners.push((edge.turns[0], edge.from));
+        }
         corners.sort_by(|a, b| a.0.total_cmp(&b.0));
         let covering = |(low, high): (f64, f64), outer: bool| {
             let covers = |edge: &&Edge| {
-                let (from, to) = (turn(edge.from), turn(edge.to));
+                let [from, to] = edge.turns;
                 let (first, last) = if outer { (from, to) } else { (to, from) };
                 (edge.arc.normal[2] > 0.0) == outer && first <= low && last >= high
             };
@@ -212,12 +233,12 @@ impl Sector {
     }
 
     /// Where A(e) is `wanted`, out of `area`: e of any length.
-    fn direction_at(&self, wanted: f64, area: f64) -> [f64; 2] {
+    fn direction_at(&self, wanted: f64, area: f64, intervals: &[Interval]) -> [f64; 2] {
         match (&self.inner, &self.table) {
             (None, _) => self
                 .outer
                 .along(self.from, 2.0 * wanted / self.outer.normal[2].abs()),
-            (Some(_), Some(table)) => self.at(table.inverse(wanted)),
+            (Some(_), Some(table)) => self.at(table.inverse(wanted, intervals)),
             (Some(inner), None) => self.solve(inner, wanted, area),
         }
     }
@@ -310,36 +331,49 @@ impl Arc {
     }
 }
 
-/// An edge: the directions of its ends in the disc, its plane, and its first corner as a direction above the disc.
+/// An edge: the directions of its ends in the disc, their azimuths from the middle, its plane, and its first corner as a direction above the
+/// disc.
+#[derive(Clone, Debug)]
 struct Edge {
     from: [f64; 2],
     to: [f64; 2],
+    turns: [f64; 2],
     arc: Arc,
     weight: [f64; 2],
 }
 
+impl Scratch {
+    /// Finds the edges of the part above the horizon.
+    fn clip(&mut self, corners: &[Vector]) {
+        self.visible.clear();
+        above_horizon(corners, &mut self.visible);
+        self.edges.clear();
+        self.edges.extend(edges(&self.visible));
+    }
+}
+
 /// The edges, round the side of their planes' normals; those that subtend nothing are left out.
-fn edges(corners: &[Vector]) -> Vec<Edge> {
+fn edges(corners: &[Vector]) -> impl Iterator<Item = Edge> {
     let pairs = || corners.iter().zip(corners.iter().cycle().skip(1));
     let area = pairs().fold(Vector::ZERO, |sum, (a, b)| sum + a.cross(*b - *a));
     let forwards = corners.first().is_some_and(|corner| corner.dot(area) > 0.0);
-    let edge = |(a, b): (&Vector, &Vector)| {
+    let edge = move |(a, b): (&Vector, &Vector)| {
         let (a, b) = if forwards { (a, b) } else { (b, a) };
         let normal = Direction::new(a.cross(*b - *a)).ok()?.to_array();
         let corner = *a / a.length();
         Some(Edge {
             from: unit([a.x, a.y]),
             to: unit([b.x, b.y]),
+            turns: [0.0; 2],
             arc: Arc { normal },
             weight: [corner.x, corner.y],
         })
     };
-    pairs().filter_map(edge).collect()
+    pairs().filter_map(edge)
 }
 
 /// The part with z ≥ 0 (Sutherland & Hodgman, CACM 17 (1), 1974).
-fn above_horizon(corners: &[Vector]) -> Vec<Vector> {
-    let mut visible = Vec::with_capacity(corners.len() + 1);
+fn above_horizon(corners: &[Vector], visible: &mut Vec<Vector>) {
     for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
         if a.z >= 0.0 {
             visible.push(*a);
@@ -349,7 +383,6 @@ fn above_horizon(corners: &[Vector]) -> Vec<Vector> {
             visible.push(Vector::new(crossing.x, crossing.y, 0.0));
         }
     }
-    visible
 }
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {

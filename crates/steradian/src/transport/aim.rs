@@ -16,7 +16,7 @@ use super::tables::{Emitter, EmitterShape, Facet, Outline, Tables};
 use super::towards::{clearance, cone, on_sphere};
 use crate::geometry::{Direction, Frame, Point, Vector};
 use crate::sampling::projected_cap::ProjectedCap;
-use crate::sampling::projected_polygon::ProjectedPolygon;
+use crate::sampling::projected_polygon::{self, ProjectedPolygon};
 use crate::sampling::spherical_rectangle::SphericalRectangle;
 use crate::sampling::spherical_triangle::SphericalTriangle;
 use crate::sampling::warp;
@@ -25,6 +25,8 @@ use crate::sampling::warp;
 pub(super) struct Aim {
     frame: Frame,
     targets: Vec<Target>,
+    /// Of the targets, in their order, and some to be used again.
+    polygons: Vec<ProjectedPolygon>,
     total: f64,
     /// Rays go through the points of the emitter, and do not end before them.
     is_portal: bool,
@@ -37,7 +39,8 @@ struct Target {
 }
 
 enum Sampler {
-    Projected(ProjectedPolygon, Plane),
+    /// The polygon of this number.
+    Projected(usize, Plane),
     Rectangle(SphericalRectangle, Plane),
     Triangle(SphericalTriangle, Plane),
     Cap(ProjectedCap, Ball),
@@ -72,17 +75,41 @@ pub(super) fn is_aimed_at(tables: &Tables<'_>, emitter: &Emitter, start: [f32; 3
     }
 }
 
+/// Memory for aiming, to be used again.
+#[derive(Default)]
+pub(super) struct Scratch {
+    corners: Vec<Vector>,
+    local: Vec<Vector>,
+    polygon: projected_polygon::Scratch,
+}
+
+impl Default for Aim {
+    fn default() -> Self {
+        Self {
+            frame: Frame::from_normal(Direction::Z),
+            targets: vec![],
+            polygons: vec![],
+            total: 0.0,
+            is_portal: false,
+        }
+    }
+}
+
 impl Aim {
-    /// At an emitter that [`is_aimed_at`] accepts.
-    pub fn new(tables: &Tables<'_>, emitter: &Emitter, place: &Place, spherical: bool) -> Self {
+    /// Turns to an emitter that [`is_aimed_at`] accepts, in the memory that it has.
+    pub fn turn(
+        &mut self,
+        tables: &Tables<'_>,
+        emitter: &Emitter,
+        (place, spherical): (&Place, bool),
+        scratch: &mut Scratch,
+    ) {
         let normal = Direction::new(Vector::from(place.normal.map(f64::from)));
         let frame = Frame::from_normal(normal.unwrap_or(Direction::Z));
-        let mut aim = Self {
-            frame,
-            targets: vec![],
-            total: 0.0,
-            is_portal: matches!(emitter.shape, EmitterShape::Portal(_)),
-        };
+        self.frame = frame;
+        self.targets.clear();
+        self.total = 0.0;
+        self.is_portal = matches!(emitter.shape, EmitterShape::Portal(_));
         let receiver = tables.scene.surfaces().origin() + Vector::from(place.point.map(f64::from));
         match &emitter.outline {
             Some(Outline::Facets(facets)) => {
@@ -95,31 +122,26 @@ impl Aim {
                 let seen = facets
                     .iter()
                     .filter(|facet| view.may_see(facet, emitter.two_sided));
-                seen.for_each(|facet| aim.at_facet(facet, receiver, spherical));
+                seen.for_each(|facet| self.at_facet(facet, (receiver, spherical), scratch));
             }
             Some(Outline::Sphere { center, radius }) => {
                 let ball = Ball {
                     center: Vec3::from_array(tables.scene.surfaces().to_kernel(*center)),
                     radius: *radius as f32,
                 };
-                aim.at_sphere(*center - receiver, *radius, ball, place, spherical);
+                self.at_sphere(*center - receiver, *radius, ball, place, spherical);
             }
             Some(Outline::Disc(..)) | None => {}
         }
-        aim
     }
 
-    /// The same, made ready for many samples.
-    pub fn prepared(mut self) -> Self {
-        let prepare = |target: Target| match target.sampler {
-            Sampler::Projected(polygon, plane) => Target {
-                sampler: Sampler::Projected(polygon.tabulated(), plane),
-                ..target
-            },
-            _ => target,
-        };
-        self.targets = self.targets.into_iter().map(prepare).collect();
-        self
+    /// Gets ready for many samples.
+    pub fn prepare(&mut self) {
+        for target in &self.targets {
+            if let Sampler::Projected(number, _) = target.sampler {
+                self.polygons[number].tabulate();
+            }
+        }
     }
 
     /// What every sample contributes per unit of radiance; 0 if nothing is seen of the emitter.
@@ -135,29 +157,50 @@ impl Aim {
         });
     }
 
-    fn at_facet(&mut self, facet: &Facet, receiver: Point, spherical: bool) {
-        let corners: Vec<Vector> = facet
-            .corners
-            .iter()
-            .map(|corner| *corner - receiver)
-            .collect();
+    fn at_facet(
+        &mut self,
+        facet: &Facet,
+        (receiver, spherical): (Point, bool),
+        scratch: &mut Scratch,
+    ) {
+        let Scratch { corners, .. } = scratch;
+        corners.clear();
+        corners.extend(facet.corners.iter().map(|corner| *corner - receiver));
         let size = (corners[2] - corners[0]).length();
         let plane = Plane {
             normal: facet.normal.to_vector(),
             distance: facet.normal.dot(corners[0]),
             size,
         };
-        if !spherical {
-            let local: Vec<_> = corners
-                .iter()
-                .map(|corner| self.frame.vector_to_local(*corner))
-                .collect();
-            if let Some(polygon) = ProjectedPolygon::new(&local) {
-                let weight = polygon.projected_solid_angle().to_steradians();
-                self.add(Sampler::Projected(polygon, plane), weight);
-            }
-            return;
+        if spherical {
+            self.at_facet_by_solid_angle(corners, plane);
+        } else {
+            self.at_facet_by_projected_solid_angle(plane, scratch);
         }
+    }
+
+    fn at_facet_by_projected_solid_angle(&mut self, plane: Plane, scratch: &mut Scratch) {
+        let Scratch {
+            corners,
+            local,
+            polygon: memory,
+        } = scratch;
+        let corners = corners.iter();
+        local.clear();
+        local.extend(corners.map(|corner| self.frame.vector_to_local(*corner)));
+        // All targets before this one have a polygon.
+        let number = self.targets.len();
+        if number == self.polygons.len() {
+            self.polygons.push(ProjectedPolygon::default());
+        }
+        let polygon = &mut self.polygons[number];
+        if polygon.set(local, memory) {
+            let weight = polygon.projected_solid_angle().to_steradians();
+            self.add(Sampler::Projected(number, plane), weight);
+        }
+    }
+
+    fn at_facet_by_solid_angle(&mut self, corners: &[Vector], plane: Plane) {
         let edges = [1, corners.len() - 1].map(|k| corners[k] - corners[0]);
         let rectangle = (corners.len() == 4).then(|| SphericalRectangle::new(corners[0], edges));
         if let Some(rectangle) = rectangle.flatten() {
@@ -209,8 +252,9 @@ impl Aim {
         let numbers = [rest, f64::from(v)];
         let vertex = Vec3::from_array(place.point);
         match &target.sampler {
-            Sampler::Projected(polygon, plane) => {
-                let direction = self.frame.to_world(polygon.sample(numbers));
+            Sampler::Projected(number, plane) => {
+                let direction = self.polygons[*number].sample(numbers);
+                let direction = self.frame.to_world(direction);
                 self.end(place, plane, direction.to_vector())
             }
             Sampler::Rectangle(rectangle, plane) => {

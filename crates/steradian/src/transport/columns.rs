@@ -5,6 +5,7 @@ use steradian_kernel::{HitBatch, RayBatch};
 
 use super::branching::Stem;
 use super::interaction::Hit;
+use super::kept_aims::KeptAims;
 use super::light_tree::Receiving;
 use super::media::AIR;
 use super::profile::StopWatch;
@@ -456,6 +457,8 @@ pub struct Workspace {
     /// What each of `shadows` adds to, where they are those of `encounters`.
     pub(super) lit: Vertices,
     pub(super) shadows: Shadows,
+    /// How meters aim at lamps.
+    pub(super) aims: KeptAims,
     pub(super) uniforms: [Vec<f32>; 4],
     /// What the branches of camera rays begin with.
     pub(super) stem: Stem,

@@ -16,6 +16,7 @@ mod exact;
 mod flux;
 mod fluxes;
 mod interaction;
+mod kept_aims;
 mod light_tracing;
 mod light_tree;
 mod measure;

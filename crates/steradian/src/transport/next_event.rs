@@ -16,11 +16,12 @@ use std::f32::consts::{FRAC_1_PI, PI, TAU};
 use glam::Vec3;
 use steradian_kernel::Work;
 
-use super::aim::{Aim, is_aimed_at};
+use super::aim::Aim;
 use super::choice::{Sampled, choose};
 use super::columns::{BATCH, Place, Shadows, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::Hit;
+use super::kept_aims::{KeptAims, Meter};
 use super::light_tree::Receiving;
 use super::media::AIR;
 use super::panel::{Panel, SamplePanel};
@@ -50,9 +51,11 @@ impl NextEvent<'_> {
         let numbers = [&vertices.light_u[..], &vertices.light_v[..]];
         if let Choice::ByImportance { .. } = self.candidates.choice {
             let places = (&workspace.known[..], &mut workspace.receiving[..]);
-            self.sample_chosen(vertices, places, numbers, (0, 1), shadows);
+            let out = (&mut workspace.aims, shadows);
+            self.sample_chosen(vertices, places, numbers, (0, 1), out);
         } else {
-            self.sample_all(0, (vertices, &workspace.known), numbers, shadows);
+            let out = (&mut workspace.aims, shadows);
+            self.sample_all(0, (vertices, &workspace.known), numbers, out);
         }
         self.settle(workspace);
     }
@@ -63,8 +66,8 @@ impl NextEvent<'_> {
         workspace.shadows.reset(workspace.vertices.len());
         let numbers = [&workspace.uniforms[2][..], &workspace.uniforms[3][..]];
         let places = (&workspace.known[..], &mut workspace.receiving[..]);
-        let (vertices, shadows) = (&workspace.vertices, &mut workspace.shadows);
-        self.sample_chosen(vertices, places, numbers, stratum, shadows);
+        let out = (&mut workspace.aims, &mut workspace.shadows);
+        self.sample_chosen(&workspace.vertices, places, numbers, stratum, out);
         self.settle(workspace);
     }
 
@@ -74,7 +77,7 @@ impl NextEvent<'_> {
         (known, receiving): (&[u64], &mut [Receiving]),
         numbers: [&[f32]; 2],
         stratum: (u32, u32),
-        shadows: &mut Shadows,
+        (aims, shadows): (&mut KeptAims, &mut Shadows),
     ) {
         for i in 0..vertices.len() {
             let at = self.receiving(&vertices.place(i));
@@ -91,7 +94,8 @@ impl NextEvent<'_> {
             if self.candidates.receiver == Receiver::Surface {
                 self.sample(i, sampled, [u, v], vertices, shadows);
             } else {
-                Aimed::at(self, sampled).sample(i, [u, v], (vertices, known), shadows);
+                let meters = (vertices, known);
+                self.sample_at_meter((i, sampled), [u, v], meters, (aims, shadows));
             }
         }
     }
@@ -113,7 +117,7 @@ impl NextEvent<'_> {
             emitter,
             (&workspace.vertices, &workspace.known),
             numbers,
-            &mut workspace.shadows,
+            (&mut workspace.aims, &mut workspace.shadows),
         );
         self.settle(workspace);
     }
@@ -123,15 +127,14 @@ impl NextEvent<'_> {
         number: usize,
         (vertices, known): (&Vertices, &[u64]),
         numbers: [&[f32]; 2],
-        shadows: &mut Shadows,
+        (aims, shadows): (&mut KeptAims, &mut Shadows),
     ) {
         let tables = self.tracer.tables;
         let sampled = Sampled::each(number);
         if self.candidates.receiver != Receiver::Surface {
-            let mut aimed = Aimed::at(self, sampled);
             for i in 0..vertices.len() {
                 let u = [numbers[0][i], numbers[1][i]];
-                aimed.sample(i, u, (vertices, known), shadows);
+                self.sample_at_meter((i, sampled), u, (vertices, known), (aims, shadows));
             }
             return;
         }
@@ -356,64 +359,45 @@ impl Work for Deliver<'_> {
     }
 }
 
-/// One emitter at meters.
-struct Aimed<'a> {
-    pass: &'a NextEvent<'a>,
-    sampled: Sampled,
-    /// The last meter, and how to aim from there; `None` where that cannot be done.
-    last: Option<(Place, Option<Aim>)>,
-}
-
-impl<'a> Aimed<'a> {
-    fn at(pass: &'a NextEvent<'a>, sampled: Sampled) -> Self {
-        Self {
-            pass,
-            sampled,
-            last: None,
-        }
-    }
-
-    /// Samples the emitter by aiming at it where that can be done, and not at all where its light is known.
-    fn sample(
-        &mut self,
-        i: usize,
+impl NextEvent<'_> {
+    /// Samples an emitter at a meter by aiming at it where that can be done, and not at all where its light is known.
+    fn sample_at_meter(
+        &self,
+        (i, sampled): (usize, Sampled),
         u: [f32; 2],
         (vertices, known): (&Vertices, &[u64]),
-        shadows: &mut Shadows,
+        (aims, shadows): (&mut KeptAims, &mut Shadows),
     ) {
         let slot = vertices.identity.slot[i] as usize;
-        if is_known(known[slot], self.sampled.number) {
+        if is_known(known[slot], sampled.number) {
             return;
         }
         let place = vertices.place(i);
-        if !matches!(&self.last, Some((last, _)) if *last == place) {
-            self.last = Some((place, self.aim(&place)));
-        }
-        match &self.last {
-            Some((_, Some(aim))) => self.cast(i, &place, aim, u, shadows),
-            _ => self.pass.sample(i, self.sampled, u, vertices, shadows),
+        let meter = Meter {
+            place,
+            start: self.start(&place),
+            is_spherical: self.is_spherical(),
+            is_still: self.still,
+        };
+        match aims.at(&meter, self.tracer.tables, sampled) {
+            Some(aim) => self.cast((i, sampled), &meter, aim, u, shadows),
+            None => self.sample(i, sampled, u, vertices, shadows),
         }
     }
 
-    fn aim(&self, place: &Place) -> Option<Aim> {
-        let tables = self.pass.tracer.tables;
-        let emitter = &tables.emitters[self.sampled.number];
-        let start = self.pass.start(place);
-        is_aimed_at(tables, emitter, start).then(|| {
-            let aim = Aim::new(tables, emitter, place, self.pass.is_spherical());
-            match self.pass.still {
-                true => aim.prepared(),
-                false => aim,
-            }
-        })
-    }
-
-    fn cast(&self, i: usize, place: &Place, aim: &Aim, u: [f32; 2], shadows: &mut Shadows) {
-        let Some(end) = aim.sample(place, u) else {
+    fn cast(
+        &self,
+        (i, sampled): (usize, Sampled),
+        meter: &Meter,
+        aim: &Aim,
+        u: [f32; 2],
+        shadows: &mut Shadows,
+    ) {
+        let Some(end) = aim.sample(&meter.place, u) else {
             return;
         };
-        let start = Vec3::from_array(self.pass.start(place));
-        let (tables, number) = (self.pass.tracer.tables, self.sampled.number);
+        let start = Vec3::from_array(meter.start);
+        let (tables, number) = (self.tracer.tables, sampled.number);
         let (others, reach) = match tables.emitters[number].shape {
             EmitterShape::Portal(_) => {
                 let others = tables.other_portals(number, start, end - start);
@@ -421,7 +405,7 @@ impl<'a> Aimed<'a> {
             }
             _ => (0, 1.0),
         };
-        let rate = self.sampled.rate * (1 + others) as f32;
+        let rate = sampled.rate * (1 + others) as f32;
         shadows.gain[i] = aim.weight() as f32 / rate;
         shadows.emitter[i] = number as u32;
         shadows.numbers[i] = u;

@@ -18,14 +18,15 @@ const TOLERANCE: f64 = 1.0 / (1 << 24) as f64;
 /// Numbers of intervals that are tried.
 const SIZES: [usize; 3] = [8, 16, 32];
 
-/// Intervals between knots, in their order.
-#[derive(Clone, Debug)]
+/// So many intervals between knots, in their order, among those of all tables.
+#[derive(Copy, Clone, Debug)]
 pub(super) struct Table {
-    intervals: Vec<Interval>,
+    first: usize,
+    size: usize,
 }
 
 #[derive(Copy, Clone, Debug)]
-struct Interval {
+pub(super) struct Interval {
     /// Area where it begins, and where it ends.
     from: f64,
     to: f64,
@@ -36,33 +37,29 @@ struct Interval {
 }
 
 impl Table {
-    /// Of a sector with two arcs; `None` where the areas are too far from cubics.
-    pub fn new(sector: &Sector, inner: &Arc) -> Option<Self> {
-        let area = sector.area_up_to(sector.to);
-        SIZES.iter().find_map(|size| {
-            let table = Self::of_size(sector, inner, *size);
-            table.holds(sector, inner, area).then_some(table)
-        })
+    /// Of a sector with two arcs, added to the intervals of others; `None` where the areas are too far from cubics.
+    pub fn new(sector: &Sector, inner: &Arc, intervals: &mut Vec<Interval>) -> Option<Self> {
+        let (first, area) = (intervals.len(), sector.area_up_to(sector.to));
+        for size in SIZES {
+            intervals.truncate(first);
+            add(sector, inner, size, intervals);
+            let table = Self { first, size };
+            if table.holds((sector, inner), area, intervals) {
+                return Some(table);
+            }
+        }
+        intervals.truncate(first);
+        None
     }
 
-    fn of_size(sector: &Sector, inner: &Arc, size: usize) -> Self {
-        let width = 1.0 / size as f64;
-        let knot = |k: usize| {
-            let e = sector.at(k as f64 * width);
-            let slope = sector.density(inner, e).max(0.0) * width;
-            (sector.area_up_to(e), slope)
-        };
-        let knots: Vec<_> = (0..=size).map(knot).collect();
-        let intervals = knots.windows(2).map(|pair| Interval::new(pair[0], pair[1]));
-        Self {
-            intervals: intervals.collect(),
-        }
+    fn of<'a>(&self, intervals: &'a [Interval]) -> &'a [Interval] {
+        &intervals[self.first..][..self.size]
     }
 
     /// Whether the inverse leads back from a quarter, the middle and three quarters of every interval.
-    fn holds(&self, sector: &Sector, inner: &Arc, area: f64) -> bool {
-        let width = 1.0 / self.intervals.len() as f64;
-        self.intervals.iter().enumerate().all(|(k, interval)| {
+    fn holds(&self, (sector, inner): (&Sector, &Arc), area: f64, intervals: &[Interval]) -> bool {
+        let width = 1.0 / self.size as f64;
+        self.of(intervals).iter().enumerate().all(|(k, interval)| {
             let leads_back = |s: f64| {
                 let e = sector.at((k as f64 + s) * width);
                 let off = interval.inverse(sector.area_up_to(e)) - s;
@@ -73,12 +70,28 @@ impl Table {
     }
 
     /// Where along the chord the area is `wanted`.
-    pub fn inverse(&self, wanted: f64) -> f64 {
-        let last = self.intervals.len() - 1;
-        let before = self.intervals[..last].iter().filter(|i| i.to <= wanted);
+    pub fn inverse(&self, wanted: f64, intervals: &[Interval]) -> f64 {
+        let intervals = self.of(intervals);
+        let last = self.size - 1;
+        let before = intervals[..last].iter().filter(|i| i.to <= wanted);
         let index = before.count();
-        (index as f64 + self.intervals[index].inverse(wanted)) / (last + 1) as f64
+        (index as f64 + intervals[index].inverse(wanted)) / self.size as f64
     }
+}
+
+/// Adds the intervals of a sector that is cut into so many.
+fn add(sector: &Sector, inner: &Arc, size: usize, intervals: &mut Vec<Interval>) {
+    let width = 1.0 / size as f64;
+    let knot = |k: usize| {
+        let e = sector.at(k as f64 * width);
+        let slope = sector.density(inner, e).max(0.0) * width;
+        (sector.area_up_to(e), slope)
+    };
+    let mut from = knot(0);
+    intervals.extend((1..=size).map(|k| {
+        let to = knot(k);
+        Interval::new(std::mem::replace(&mut from, to), to)
+    }));
 }
 
 impl Interval {
