@@ -9,6 +9,7 @@
 
 use std::sync::LazyLock;
 
+use steradian_kernel::prefetch;
 use thiserror::Error;
 
 /// Texels: red, green, blue, alpha. Alpha is linear in every encoding.
@@ -33,6 +34,16 @@ impl Texels {
             Self::Srgb8(texels) | Self::Linear8(texels) => texels.len(),
             Self::Srgb16(texels) | Self::Linear16(texels) => texels.len(),
             Self::Float(texels) => texels.len(),
+        }
+    }
+
+    /// Has a texel fetched that will be asked for soon.
+    #[inline]
+    fn fetch_ahead(&self, index: usize) {
+        match self {
+            Self::Srgb8(texels) | Self::Linear8(texels) => prefetch(&texels[index]),
+            Self::Srgb16(texels) | Self::Linear16(texels) => prefetch(&texels[index]),
+            Self::Float(texels) => prefetch(&texels[index]),
         }
     }
 
@@ -211,6 +222,15 @@ impl Bitmap {
         }
     }
 
+    /// Has the texels fetched that [`at`](Self::at) will ask for, in most places all of them.
+    pub fn fetch_ahead(&self, [u, v]: [f64; 2]) {
+        let x = (u * f64::from(self.width) - 0.5).floor() as i64;
+        let y = ((1.0 - v) * f64::from(self.height) - 0.5).floor() as i64;
+        for row in [y, y.saturating_add(1)] {
+            self.texels.fetch_ahead(self.index(x, row));
+        }
+    }
+
     fn between(&self, x: f64, y: f64) -> [f32; 4] {
         let (left, top) = (x.floor(), y.floor());
         let (s, t) = ((x - left) as f32, (y - top) as f32);
@@ -224,9 +244,13 @@ impl Bitmap {
     }
 
     fn texel(&self, i: i64, j: i64) -> [f32; 4] {
+        self.texels.at(self.index(i, j))
+    }
+
+    fn index(&self, i: i64, j: i64) -> usize {
         let column = self.wrap[0].index(i, i64::from(self.width));
         let row = self.wrap[1].index(j, i64::from(self.height));
-        self.texels.at(row * self.width as usize + column)
+        row * self.width as usize + column
     }
 }
 

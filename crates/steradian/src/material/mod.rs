@@ -144,6 +144,25 @@ impl Material {
         tints.chain(opacity).flatten()
     }
 
+    /// All pictures that are looked up where the material is met, but for its opacity, each once and with the way in which it is laid.
+    pub fn pictures(&self) -> Vec<Picture> {
+        let mut all: Vec<Picture> = vec![];
+        let numbers = match &self.model {
+            Model::Recipe(recipe) => recipe.recipe().all_numbers(),
+            _ => vec![],
+        };
+        let tints = self.tints().into_iter();
+        let textures = tints.flat_map(|tint| tint.textures.iter().filter_map(Texture::picture));
+        let numbers = numbers.into_iter().filter_map(|it| it.picture.clone());
+        let relief = self.relief.as_ref().map(Relief::picture);
+        for picture in textures.chain(numbers).chain(relief) {
+            if !all.iter().any(|known| known.is_laid_like(&picture)) {
+                all.push(picture);
+            }
+        }
+        all
+    }
+
     /// Whether anything of it is laid by texture coordinates.
     pub fn needs_coordinates(&self) -> bool {
         let pictures = match &self.model {

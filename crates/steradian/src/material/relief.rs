@@ -17,7 +17,7 @@
 
 use std::sync::Arc;
 
-use super::{Bitmap, Site};
+use super::{Bitmap, Picture, Site};
 use crate::geometry::{Direction, Vector};
 use crate::shape::along_u;
 
@@ -48,6 +48,15 @@ pub enum ReliefKind {
 }
 
 impl Relief {
+    /// The picture that shows it.
+    pub fn picture(&self) -> Picture {
+        Picture {
+            bitmap: Arc::clone(&self.bitmap),
+            placement: self.placement,
+            channel: 0,
+        }
+    }
+
     /// The normal of the front from that without relief and the gradients of the texture coordinates; `None` where the picture
     /// has no normal that faces outwards.
     pub fn normal(

@@ -43,9 +43,22 @@ impl Scalar {
 
 impl Picture {
     fn at(&self, site: &Site) -> f64 {
+        f64::from(self.bitmap.at(self.place(site))[self.channel.min(3)])
+    }
+
+    fn place(&self, site: &Site) -> [f64; 2] {
         let [u, v] = site.coordinates.map(f64::from);
-        let place = self.placement.map(|[a, b, c]| a * u + b * v + c);
-        f64::from(self.bitmap.at(place)[self.channel.min(3)])
+        self.placement.map(|[a, b, c]| a * u + b * v + c)
+    }
+
+    /// Has the texels fetched that will be asked for at a point.
+    pub fn fetch_ahead(&self, site: &Site) {
+        self.bitmap.fetch_ahead(self.place(site));
+    }
+
+    /// Whether it shows the same bitmap at the same places.
+    pub fn is_laid_like(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.bitmap, &other.bitmap) && self.placement == other.placement
     }
 }
 

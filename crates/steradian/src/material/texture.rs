@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use super::Bitmap;
+use super::{Bitmap, Picture};
 use crate::spectrum::{
     BakedCurve, Curve, CurveId, Grid, Lanes, MAX_LANES, UpsamplingTable, Wavelengths, sigmoid_at,
 };
@@ -82,6 +82,18 @@ impl Texture {
         Self {
             pattern: Pattern::Bitmap(Arc::clone(picture)),
             placement: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        }
+    }
+
+    /// Its picture, if it is one.
+    pub fn picture(&self) -> Option<Picture> {
+        match &self.pattern {
+            Pattern::Bitmap(bitmap) => Some(Picture {
+                bitmap: Arc::clone(bitmap),
+                placement: self.placement,
+                channel: 0,
+            }),
+            Pattern::Checkerboard(_) | Pattern::VertexColor => None,
         }
     }
 

@@ -8,6 +8,7 @@ use super::interaction::Hit;
 use super::kept_aims::KeptAims;
 use super::light_tree::Receiving;
 use super::media::AIR;
+use super::patterned::Patterned;
 use super::profile::StopWatch;
 use super::scattering::Encounter;
 use super::tables::{Emitter, EmitterShape, Tables};
@@ -448,6 +449,8 @@ pub struct Workspace {
     pub(super) plain: Vec<u32>,
     /// Rows of the others.
     pub(super) others: Vec<u32>,
+    /// Those that met diffuse surfaces with textures.
+    pub(super) patterned: Vec<Patterned>,
     pub(super) vertices: Vertices,
     pub(super) mirrors: Vertices,
     /// Direction towards the viewer at each of `mirrors`.

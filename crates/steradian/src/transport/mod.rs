@@ -26,6 +26,7 @@ mod meters;
 mod next_event;
 mod panel;
 mod path;
+mod patterned;
 mod plain;
 mod portals;
 mod profile;

@@ -31,6 +31,7 @@ use super::interaction::{Hit, hit};
 use super::light_tree::Receiving;
 use super::media::AIR;
 use super::next_event::NextEvent;
+use super::patterned::Patterned;
 use super::plain::ArrivePlainly;
 use super::profile::Stage;
 use super::scatter;
@@ -138,6 +139,7 @@ impl Tracer<'_> {
         if !tables.media.is_empty() {
             attenuate(tables, workspace);
         }
+        workspace.patterned.clear();
         let mut others = std::mem::take(&mut workspace.others);
         let primitives = &workspace.hits.primitive[..workspace.flights.len()];
         tables
@@ -177,6 +179,10 @@ impl Tracer<'_> {
                     self.arrive_at_any(workspace, i);
                     continue;
                 }
+                Model::Lambertian if tables.has_textures(&side.reflectance) => {
+                    self.find_texture(workspace, i, &hit);
+                    continue;
+                }
                 Model::Lambertian | Model::Mirror => {}
             }
             let reflectance = tables.lanes_at(&side.reflectance, wavelengths, || tables.site(&hit));
@@ -190,6 +196,7 @@ impl Tracer<'_> {
             }
         }
         workspace.others = others;
+        self.arrive_at_patterned(workspace);
         self.set.run(ArrivePlainly {
             table: &tables.plain,
             triangles: tables.scene.surfaces().triangles(),
@@ -221,8 +228,24 @@ impl Tracer<'_> {
             return;
         }
         let site = self.tables.site(&hit);
+        let side = &self.tables.sides[hit.side as usize];
+        self.tables.fetch_ahead(side, &site);
         let encounter = Encounter::of_flight(&workspace.flights, i, &hit, site);
         workspace.encounters.push(encounter);
+    }
+
+    /// Asks for what a diffuse surface with textures shows.
+    #[inline(never)]
+    fn find_texture(&self, workspace: &mut Workspace, i: usize, hit: &Hit) {
+        let site = self.tables.site(hit);
+        let side = &self.tables.sides[hit.side as usize];
+        self.tables.fetch_ahead(side, &site);
+        workspace.patterned.push(Patterned {
+            row: i as u32,
+            side: hit.side,
+            place: hit.place,
+            site,
+        });
     }
 
     /// Lets a path go straight through a pane or reflects it, in proportion to the light that each leaves to it: its
@@ -404,8 +427,9 @@ fn attenuate(tables: &Tables<'_>, workspace: &mut Workspace) {
     }
 }
 
+/// Collects a diffuse vertex or a mirror of flight `i`.
 #[inline(always)]
-fn push(
+pub(super) fn push(
     vertices: &mut Vertices,
     flights: &Flights,
     i: usize,

@@ -17,7 +17,7 @@ use super::media::Beside;
 use super::plain::PlainTriangles;
 use super::portals::Portal;
 use crate::light::{Beam, EnvironmentMap, Kind, Light};
-use crate::material::{ColorLanes, Hue, MaterialId, Opacity, Tint};
+use crate::material::{ColorLanes, Hue, MaterialId, Opacity, Picture, Tint};
 use crate::scene::Scene;
 use crate::shape::ShapeId;
 use crate::spectrum::{BakedCurve, Curve, MAX_LANES};
@@ -238,6 +238,8 @@ pub(super) struct Tables<'a> {
     pub environment: Vec<Everywhere>,
     /// What varies over surfaces or with the wavelength.
     pub tints: Vec<Tint>,
+    /// Looked up where a material is met, by material.
+    pub pictures: Vec<Vec<Picture>>,
     /// Of sides that are not opaque.
     pub opacities: Vec<Opacity>,
     /// That absorb, on some side of a surface.
@@ -256,6 +258,7 @@ impl<'a> Tables<'a> {
         let lights = scene.lights().iter();
         let powers: Vec<_> = lights.map(|light| tints.of_light(light)).collect();
         let materials = scene.materials().iter();
+        let pictures = materials.clone().map(|(_, material)| material.pictures());
         let plain: Vec<_> = materials
             .enumerate()
             .map(|(number, (_, material))| tints.of_material(MaterialId(number as u32), material))
@@ -313,6 +316,7 @@ impl<'a> Tables<'a> {
             responses: scene.lanes().responses().iter().filter_map(bake).collect(),
             colors: ColorLanes::new(scene.lanes(), scene.curves()),
             tints: tints.tints,
+            pictures: pictures.collect(),
             opacities: tints.opacities,
             media: tints.media,
             lets_pass,
