@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use steradian::brdf::Brdf;
+use steradian::estimation::Estimate;
 use steradian::geometry::{Direction, Point, Vector};
-use steradian::material::{ColorLanes, Recipe, Roughness, Site};
-use steradian::scene::description::SceneDescription;
+use steradian::material::{ColorLanes, Recipe, Roughness, Scalar, Site};
+use steradian::scene::description::{SceneDescription, Varying};
 use steradian::spectrum::Wavelengths;
 use steradian_tests::measuring::{measured, reading, rel_error, samples, validated};
 use steradian_tests::scenes::*;
@@ -139,4 +140,57 @@ fn lamp_and_meter_may_change_places() {
         &between(places[0], places[1]),
         &between(places[1], places[0]),
     );
+}
+
+/// Rough metals are shaded side by side, mixtures one by one: a mixture of nothing but a metal looks like that metal, under lamps that are
+/// chosen among, seen once and twice, smooth and rough, brushed and on a ball.
+#[test]
+fn metals_side_by_side_look_as_they_do_one_by_one() {
+    let metals = [[0.02, 0.02], [0.1, 0.4], [0.7, 0.7]].map(|alpha| {
+        metal(Some(Roughness {
+            alpha,
+            ..rough(0.1, false)
+        }))
+    });
+    let alone = |metal: &Recipe<_, _>| Recipe::Mixture {
+        parts: vec![metal.clone()],
+        weights: vec![1.0],
+    };
+    let one_by_one = metals.each_ref().map(alone);
+    let [first, second] = [metals, one_by_one].map(between_metals);
+    for name in ["L", "mirrored", "E"] {
+        assert_same(name, &first(name), &second(name));
+    }
+}
+
+/// Readings in a cleft between two metals with a ball of a third in it, to 1 %.
+fn between_metals(
+    [polished, brushed, dull]: [Recipe<Varying, Scalar>; 3],
+) -> impl Fn(&str) -> Estimate {
+    let materials = [
+        modelled("polished", polished),
+        modelled("brushed", brushed),
+        modelled("dull", dull),
+    ];
+    let wall = [v(0.0, 3.0, 0.0), v(0.0, 0.0, 2.0)];
+    let shapes = [
+        square(3.0, 0.0).made_of("brushed"),
+        rectangle(p(-1.5, -1.5, 0.0), wall).made_of("polished"),
+        ball(p(0.4, 0.2, 0.3), 0.3).made_of("dull"),
+        ball(p(-0.3, 0.6, 1.2), 0.05).emitting(radiance(400.0)),
+        ball(p(0.8, -0.9, 1.5), 0.3).emitting(radiance(20.0)),
+        square_facing_down(0.5, 2.0).emitting(radiance(30.0)),
+    ];
+    let lamp = point_light(p(0.0, -0.5, 1.8), intensity(3.0));
+    let mut scene = scene(materials, shapes, [lamp, environment(0.1)]);
+    scene.sensors = vec![
+        sensor("L", radiance_along(p(0.9, 0.3, 0.9), v(-0.5, 0.1, -0.9))),
+        sensor(
+            "mirrored",
+            radiance_along(p(0.9, 0.1, 0.4), v(-1.0, 0.1, 0.1)),
+        ),
+        sensor("E", irradiance_at([(p(0.5, -0.6, 0.2), v(-1.0, 0.2, 0.3))])),
+    ];
+    let measured = measured(&scene, &rel_error(1e-2));
+    move |name| reading(&measured, name).estimate
 }

@@ -41,6 +41,11 @@ impl ComplexIndex {
         Ok(Self { eta, kappa })
     }
 
+    /// η and κ.
+    pub(super) const fn parts(&self) -> [[f64; 4]; 2] {
+        [self.eta, self.kappa]
+    }
+
     /// Reflectance of unpolarised light at this angle.
     pub fn reflectance(&self, cos_incident: f64) -> [f64; 4] {
         std::array::from_fn(|lane| conductor(cos_incident, self.eta[lane], self.kappa[lane]).mean())

@@ -55,6 +55,7 @@ pub(crate) use gloss::Gloss;
 pub use lambertian::Lambertian;
 pub use measured::Measured;
 pub use microfacet::{Facets, RoughConductor, RoughDielectric, RoughPlastic, Shadowing, Slopes};
+pub(crate) use microfacet::{Later, Metal};
 pub use mirror::Mirror;
 pub use mixture::Mixture;
 pub use oren_nayar::OrenNayar;

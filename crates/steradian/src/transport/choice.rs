@@ -1,7 +1,7 @@
 //! Which emitter a place samples: one of several by what it may bring to the place.
 
 use super::columns::Place;
-use super::light_tree::Receiving;
+use super::light_tree::{self, LightTree, Receiving};
 use super::tables::{Candidates, Choice, Tables};
 use super::towards::{Towards, towards, towards_triangle};
 use crate::sampling::hash;
@@ -42,15 +42,26 @@ impl Sampled {
 pub(super) fn choose(
     tables: &Tables,
     candidates: Candidates,
-    ([u, v], (stratum, strata)): ([f32; 2], (u32, u32)),
+    numbers: ([f32; 2], (u32, u32)),
     at: impl FnOnce() -> Receiving,
+) -> Option<(Sampled, f32)> {
+    choose_by(tables, candidates, numbers, |tree, u| tree.draw(&at(), u))
+}
+
+/// The same by whatever draws a light from the tree.
+#[inline(always)]
+pub(super) fn choose_by(
+    tables: &Tables,
+    candidates: Candidates,
+    ([u, v], (stratum, strata)): ([f32; 2], (u32, u32)),
+    draw: impl FnOnce(&LightTree, f64) -> Option<light_tree::Drawn>,
 ) -> Option<(Sampled, f32)> {
     let Choice::ByImportance { samples } = candidates.choice else {
         return Some((Sampled::each(0), u));
     };
     let fine = f64::from(hash::mix_32(v.to_bits())) * 0.5_f64.powi(56);
     let u = (f64::from(stratum) + f64::from(u) + fine) / f64::from(strata);
-    let chosen = tables.selection(candidates)?.choose(&at(), u)?;
+    let chosen = tables.selection(candidates)?.choose_by(u, draw)?;
     let sampled = Sampled {
         number: chosen.emitter,
         triangle: chosen.triangle,

@@ -10,7 +10,7 @@ use super::light_tree::Receiving;
 use super::media::AIR;
 use super::patterned::Patterned;
 use super::profile::StopWatch;
-use super::scattering::Encounter;
+use super::scattering::{Encounter, Metals};
 use super::tables::{Emitter, EmitterShape, Tables};
 use super::transmittance::Transmittance;
 use crate::material::Site;
@@ -457,6 +457,8 @@ pub struct Workspace {
     pub(super) viewer: [Vec<f32>; 3],
     /// Paths at surfaces of all other models.
     pub(super) encounters: Vec<Encounter>,
+    /// Those of them at rough metals.
+    pub(super) metals: Metals,
     /// What each of `shadows` adds to, where they are those of `encounters`.
     pub(super) lit: Vertices,
     pub(super) shadows: Shadows,

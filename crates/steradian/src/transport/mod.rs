@@ -17,6 +17,7 @@ mod flux;
 mod fluxes;
 mod interaction;
 mod kept_aims;
+mod light_samples;
 mod light_tracing;
 mod light_tree;
 mod measure;
@@ -41,6 +42,7 @@ mod thrown;
 mod towards;
 mod transmittance;
 mod unsampled;
+mod wide;
 
 pub use blocks::{Ended, POINTS_OF_A_BLOCK, measure, measure_in_blocks};
 pub use profile::{Stage, StageTimes, profile};

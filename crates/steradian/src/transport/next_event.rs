@@ -22,6 +22,7 @@ use super::columns::{BATCH, Place, Shadows, Vertices, Workspace};
 use super::exact::is_known;
 use super::interaction::Hit;
 use super::kept_aims::{KeptAims, Meter};
+use super::light_samples::{Drawn, LightSamples, Places};
 use super::light_tree::Receiving;
 use super::media::AIR;
 use super::panel::{Panel, SamplePanel};
@@ -29,6 +30,7 @@ use super::path::Tracer;
 use super::profile::Stage;
 use super::tables::{Candidates, Choice, EmitterShape, NO_TINT, Receiver, Tables};
 use super::towards::cone;
+use super::wide::{WIDTH, get, wide};
 
 /// One pass over the vertices of a batch.
 pub(super) struct NextEvent<'a> {
@@ -79,23 +81,48 @@ impl NextEvent<'_> {
         stratum: (u32, u32),
         (aims, shadows): (&mut KeptAims, &mut Shadows),
     ) {
+        if self.candidates.receiver == Receiver::Surface {
+            self.sample_blocks(vertices, receiving, numbers, shadows);
+            return;
+        }
         for i in 0..vertices.len() {
             let at = self.receiving(&vertices.place(i));
             receiving[vertices.identity.slot[i] as usize] = at;
             let [u, v] = numbers.map(|column| column[i]);
-            let Some((sampled, u)) = choose(
-                self.tracer.tables,
-                self.candidates,
-                ([u, v], stratum),
-                || at,
-            ) else {
-                continue;
-            };
-            if self.candidates.receiver == Receiver::Surface {
-                self.sample(i, sampled, [u, v], vertices, shadows);
-            } else {
+            let tables = self.tracer.tables;
+            let chosen = choose(tables, self.candidates, ([u, v], stratum), || at);
+            if let Some((sampled, u)) = chosen {
                 let meters = (vertices, known);
                 self.sample_at_meter((i, sampled), [u, v], meters, (aims, shadows));
+            }
+        }
+    }
+
+    /// Samples an emitter chosen by importance at every vertex of a path, a block of them at a time.
+    fn sample_blocks(
+        &self,
+        vertices: &Vertices,
+        receiving: &mut [Receiving],
+        numbers: [&[f32]; 2],
+        shadows: &mut Shadows,
+    ) {
+        let samples = LightSamples {
+            tracer: self.tracer,
+            candidates: self.candidates,
+        };
+        for first in (0..vertices.len()).step_by(WIDTH) {
+            let count = WIDTH.min(vertices.len() - first);
+            let places = places(vertices, first);
+            let numbers = numbers.map(|column| wide(&column[first..]));
+            let numbers: [_; WIDTH] = std::array::from_fn(|lane| get(&numbers, lane));
+            let place = |lane| vertices.place(first + lane);
+            let drawn = samples.draw::<false>(&places, &numbers[..count], place);
+            for (lane, drawn) in drawn.into_iter().enumerate().take(count) {
+                let slot = vertices.identity.slot[first + lane] as usize;
+                receiving[slot] = places.at::<false>(lane);
+                if let Some(drawn) = drawn {
+                    self.weigh(first + lane, drawn, vertices, shadows);
+                }
             }
         }
     }
@@ -181,11 +208,25 @@ impl NextEvent<'_> {
         vertices: &Vertices,
         shadows: &mut Shadows,
     ) {
-        let place = vertices.place(i);
-        let tables = self.tracer.tables;
-        let Some(towards) = sampled.towards(tables, &place, u) else {
-            return;
-        };
+        let towards = sampled.towards(self.tracer.tables, &vertices.place(i), u);
+        if let Some(towards) = towards {
+            let drawn = Drawn {
+                sampled,
+                u,
+                towards,
+            };
+            self.weigh(i, drawn, vertices, shadows);
+        }
+    }
+
+    /// Weighs a sample against the vertex's own directions.
+    fn weigh(&self, i: usize, drawn: Drawn, vertices: &Vertices, shadows: &mut Shadows) {
+        let Drawn {
+            sampled,
+            u,
+            towards,
+        } = drawn;
+        let (place, tables) = (vertices.place(i), self.tracer.tables);
         let Sampled { number, rate, .. } = sampled;
         let from = place.start(towards.direction);
         if self.candidates.receiver != Receiver::Surface
@@ -327,6 +368,24 @@ impl NextEvent<'_> {
             | EmitterShape::Everywhere(_)
             | EmitterShape::Portal(_) => 0.0,
         }
+    }
+}
+
+/// Of a block of vertices.
+fn places(vertices: &Vertices, first: usize) -> Places {
+    let Vertices {
+        x,
+        y,
+        z,
+        normal_x,
+        normal_y,
+        normal_z,
+        ..
+    } = vertices;
+    Places {
+        point: [x, y, z].map(|column| wide(&column[first..])),
+        normal: [normal_x, normal_y, normal_z].map(|column| wide(&column[first..])),
+        ..Places::default()
     }
 }
 

@@ -235,13 +235,20 @@ pub(super) fn number_at(key: u64, index: u32, segment: u32) -> f32 {
 /// A local direction in the frame of `normal` (Duff et al., *Building an orthonormal basis, revisited*, JCGT 2017).
 #[inline(always)]
 pub(super) fn to_world(normal: [f32; 3], local: [f32; 3]) -> [f32; 3] {
-    let [x, y, z] = normal;
-    let sign = 1.0_f32.copysign(z);
-    let a = -1.0 / (sign + z);
-    let b = x * y * a;
-    let tangent = [1.0 + sign * x * x * a, sign * b, -sign * x];
-    let bitangent = [b, sign + y * y * a, -y];
+    let [tangent, bitangent] = tangents(normal);
     std::array::from_fn(|axis| {
         tangent[axis] * local[0] + bitangent[axis] * local[1] + normal[axis] * local[2]
     })
+}
+
+/// The first two axes of that frame.
+#[inline(always)]
+pub(super) fn tangents([x, y, z]: [f32; 3]) -> [[f32; 3]; 2] {
+    let sign = 1.0_f32.copysign(z);
+    let a = -1.0 / (sign + z);
+    let b = x * y * a;
+    [
+        [1.0 + sign * x * x * a, sign * b, -sign * x],
+        [b, sign + y * y * a, -y],
+    ]
 }

@@ -25,6 +25,7 @@ pub(super) struct Towards {
 }
 
 /// 1 − cosθ_max of a sphere's cone; `None` from inside and for a sphere with ports.
+#[inline(always)]
 pub(super) fn cone(axis: Vec3, radius: f32, whole: bool) -> Option<f32> {
     let sin2 = radius * radius / axis.length_squared();
     (whole && sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
@@ -279,7 +280,9 @@ fn towards_sphere(emitter: &Emitter, vertex: Vec3, u: [f32; 2]) -> Option<Toward
     }
 }
 
-fn in_cone(
+/// A direction in the cone that a sphere subtends.
+#[inline(always)]
+pub(super) fn in_cone(
     axis: Vec3,
     center: Vec3,
     radius: f32,
@@ -306,6 +309,7 @@ fn in_cone(
 }
 
 /// End of a shadow ray from `vertex` that goes in a `direction` to a sphere: where it meets it first, moved off its surface.
+#[inline(always)]
 pub(super) fn on_sphere(center: Vec3, radius: f32, vertex: Vec3, direction: Vec3) -> Vec3 {
     let axis = center - vertex;
     let along = direction.dot(axis);

@@ -5,6 +5,8 @@
 
 mod facets;
 mod interface_light;
+mod later;
+mod metal;
 mod quadrature;
 mod rough_conductor;
 mod rough_dielectric;
@@ -13,6 +15,8 @@ pub(super) mod shelf;
 pub(super) mod table;
 
 pub use facets::{Facets, Shadowing, Slopes};
+pub(crate) use later::Later;
+pub(crate) use metal::Metal;
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
 pub use rough_plastic::RoughPlastic;

@@ -37,6 +37,8 @@ use std::f64::consts::FRAC_1_PI;
 
 use super::facets::{Facets, Shadowing, Slopes};
 use super::half_way;
+use super::later::Later;
+use super::metal::Metal;
 use super::quadrature::{Fan, Ray};
 use super::shelf::{Blend, Recent, Shelf};
 use super::table::Table;
@@ -244,6 +246,27 @@ impl RoughConductor {
                 + grazing[lane] * rise
                 + later.reflectance[lane] * missing
         })
+    }
+
+    /// Both terms as loops over many paths know them; none of Gaussian facets, Schlick's approximation, and anisotropic surfaces with a
+    /// second term.
+    pub(crate) fn in_columns(&self) -> Option<(Metal, Option<Later>)> {
+        let Mirroring::Metal(index) = self.mirror else {
+            return None;
+        };
+        let first = Metal::new(self.facets, index.parts())?;
+        let later = self.later.as_ref();
+        let later = later.map(|later| Later::new(&later.shares, later.reflectance));
+        match later {
+            Some(None) => None,
+            later => Some((first, later.flatten())),
+        }
+    }
+
+    /// α_x and α_y.
+    #[cfg(test)]
+    pub(super) const fn widths(&self) -> [f64; 2] {
+        self.facets.widths()
     }
 
     /// Of the first term.

@@ -153,7 +153,24 @@ impl<const SIDES: usize> Blend<SIDES> {
         sum / f64::from(POINTS)
     }
 
+    /// M at the nodes of the tables, if it does not depend on azimuth.
+    pub(super) fn nodes(&self, side: usize) -> Option<Vec<f32>> {
+        let [first, second] = [self.tables[0][side].nodes()?, self.tables[1][side].nodes()?];
+        Some(mixed(&first, &second, self.part))
+    }
+
+    /// The density of [`sample`](Self::sample) over cosθ in each band of the tables.
+    pub(super) fn bands(&self, side: usize) -> Vec<f32> {
+        let [first, second] = [0, 1].map(|k| self.tables[k][side].bands());
+        mixed(&first, &second, self.share_of_second(side))
+    }
+
     fn share_of_second(&self, side: usize) -> f64 {
         self.part * self.tables[1][side].averages()[0] / self.average(side)
     }
+}
+
+fn mixed(first: &[f64], second: &[f64], part: f64) -> Vec<f32> {
+    let both = first.iter().zip(second);
+    both.map(|(a, b)| (a + part * (b - a)) as f32).collect()
 }

@@ -128,6 +128,22 @@ impl Table {
         self.band(band).1 * cos * FRAC_1_PI / (to - from)
     }
 
+    /// M at the nodes, if it does not depend on azimuth.
+    pub(super) fn nodes(&self) -> Option<[f64; BANDS + 1]> {
+        match self.rows.as_slice() {
+            [only] => Some(only.map(|[missing, _]| missing)),
+            _ => None,
+        }
+    }
+
+    /// The density of [`sample`](Self::sample) over cosθ in each band.
+    pub(super) fn bands(&self) -> [f64; BANDS] {
+        std::array::from_fn(|band| {
+            let [from, to] = squares(band);
+            self.band(band).1 * FRAC_1_PI / (to - from)
+        })
+    }
+
     /// What lies below a band, and in it.
     fn band(&self, band: usize) -> (f64, f64) {
         let lower = if band == 0 {

@@ -16,9 +16,10 @@
 //!
 //! Source: B. Walter et al., EGSR 2007, eq. 20 and 33.
 
-use glam::{Vec3, Vec4};
+use glam::Vec3;
 
 use super::node::{cross, dot};
+use super::number::Number;
 use crate::brdf::Gloss;
 
 /// Least cosine of the viewer, which keeps highlights finite.
@@ -35,16 +36,16 @@ pub(in crate::transport) struct Highlight {
 impl Highlight {
     /// l of light that comes along `way` out of balls that are seen under `r`.
     #[inline(always)]
-    pub fn over(&self, way: [Vec4; 3], r: Vec4) -> Vec4 {
+    pub fn over<N: Number>(&self, way: [N; 3], r: N) -> N {
         let (viewer, normal) = (self.viewer.to_array(), self.normal.to_array());
-        let normal = normal.map(Vec4::splat);
-        let half: [Vec4; 3] = std::array::from_fn(|axis| Vec4::splat(viewer[axis]) - way[axis]);
+        let normal = normal.map(N::splat);
+        let half: [N; 3] = std::array::from_fn(|axis| N::splat(viewer[axis]) - way[axis]);
         let alpha = self.gloss.alpha;
-        let width = (r * r * 0.25 + alpha * alpha).min(Vec4::ONE);
+        let width = (r * r * N::splat(0.25) + N::splat(alpha * alpha)).least(N::splat(1.0));
         let (along, across) = (dot(half, normal), cross(half, normal));
         let spread = along * along * width + dot(across, across);
-        let squared = dot(half, half) / spread.max(Vec4::splat(f32::MIN_POSITIVE));
-        let cos_viewer = self.viewer.dot(self.normal).max(GRAZING);
-        squared * squared * width * (0.25 / cos_viewer)
+        let squared = dot(half, half) / spread.most(N::splat(f32::MIN_POSITIVE));
+        let cos_viewer = self.viewer.dot(self.normal).most(GRAZING);
+        squared * squared * width * N::splat(0.25 / cos_viewer)
     }
 }

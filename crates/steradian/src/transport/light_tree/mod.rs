@@ -26,17 +26,22 @@ mod build;
 mod emitters;
 mod highlight;
 mod node;
+mod number;
 mod selection;
 
 use bounds::Bounds;
 use build::Builder;
 pub(super) use highlight::Highlight;
-pub(super) use node::Receiving;
+pub(super) use node::{Ball, Receiving};
 use node::{Below, Node, WIDTH};
 pub(super) use selection::Selection;
 
 /// The greatest number below 1.
 const BELOW_ONE: f64 = 1.0 - 0.5 * f64::EPSILON;
+
+/// Nodes of a tree whose balls are all weighed at once at many places, rather than those on the way to a light at each: a root and what is
+/// below it, mostly of no more than sixteen lights.
+pub(super) const FEW: usize = 5;
 
 /// A light to be put into a tree.
 #[derive(Copy, Clone, Debug)]
@@ -51,6 +56,8 @@ pub(super) struct LightTree {
     nodes: Vec<Node>,
     /// By light: digit k to the base 4 is the branch that step k from the root takes.
     trails: Vec<u64>,
+    /// The balls of each node, if these are no more than [`FEW`].
+    few: Vec<[Ball<f32>; WIDTH]>,
 }
 
 /// A light that was drawn.
@@ -69,13 +76,23 @@ impl LightTree {
         let mut items: Vec<_> = bounds.into_iter().enumerate().map(number).collect();
         (!items.is_empty()).then(|| {
             let Builder { nodes, trails, .. } = Builder::new(&mut items);
-            Self { nodes, trails }
+            let of_node = |node: &Node| std::array::from_fn(|k| node.ball(k));
+            let few = match nodes.len() <= FEW {
+                true => nodes.iter().map(of_node).collect(),
+                false => vec![],
+            };
+            Self { nodes, trails, few }
         })
     }
 
     /// A light by its importance at a place, if one may contribute there.
-    pub fn draw(&self, at: &Receiving, mut u: f64) -> Option<Drawn> {
-        let (light, probability) = self.descend(at, |importances, sum| {
+    pub fn draw(&self, at: &Receiving, u: f64) -> Option<Drawn> {
+        self.draw_by(|number| self.nodes[number].importance(at), u)
+    }
+
+    /// The same from the importances of each node's balls there.
+    pub fn draw_by(&self, of_node: impl Fn(usize) -> [f32; WIDTH], mut u: f64) -> Option<Drawn> {
+        let (light, probability) = self.descend(of_node, |importances, sum| {
             let wanted = u * sum;
             let (mut k, mut before) = (0, 0.0);
             while k < WIDTH - 1 && wanted >= before + importances[k] {
@@ -95,7 +112,8 @@ impl LightTree {
     /// Probability with which [`draw`](Self::draw) draws a light at a place.
     pub fn probability(&self, at: &Receiving, light: usize) -> f64 {
         let mut trail = self.trails[light];
-        let found = self.descend(at, |_, _| {
+        let of_node = |number: usize| self.nodes[number].importance(at);
+        let found = self.descend(of_node, |_, _| {
             let step = trail as usize % WIDTH;
             trail /= WIDTH as u64;
             step
@@ -107,12 +125,12 @@ impl LightTree {
     #[inline(always)]
     fn descend(
         &self,
-        at: &Receiving,
+        of_node: impl Fn(usize) -> [f32; WIDTH],
         mut step: impl FnMut([f64; WIDTH], f64) -> usize,
     ) -> Option<(usize, f64)> {
-        let (mut node, mut probability) = (&self.nodes[0], 1.0);
+        let (mut number, mut probability) = (0, 1.0);
         loop {
-            let importances = node.importance(at).map(f64::from);
+            let importances = of_node(number).map(f64::from);
             let [a, b, c, d] = importances;
             let sum = (a + b) + (c + d);
             if sum <= 0.0 {
@@ -120,9 +138,9 @@ impl LightTree {
             }
             let k = step(importances, sum);
             probability *= importances[k] / sum;
-            match node.below(k) {
+            match self.nodes[number].below(k) {
                 Below::Light(light) => return (probability > 0.0).then_some((light, probability)),
-                Below::Node(next) => node = &self.nodes[next],
+                Below::Node(next) => number = next,
             }
         }
     }

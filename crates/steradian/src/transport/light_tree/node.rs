@@ -33,6 +33,7 @@ use glam::{Vec3, Vec4};
 
 use super::bounds::Bounds;
 use super::highlight::Highlight;
+use super::number::Number;
 
 /// By how much sines and cosines may be wrong: 16 roundings of 2⁻²⁴ are 10⁻⁶.
 const SLACK: f32 = 4e-6;
@@ -50,17 +51,23 @@ pub(in crate::transport) struct Receiving {
     pub highlight: Option<Highlight>,
 }
 
-/// Balls of lights in single precision, column by column, with what follows below each. A ball that is missing has no intensity.
+/// A ball of lights in single precision, or several column by column.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub(in crate::transport) struct Ball<N> {
+    center: [N; 3],
+    radius: N,
+    axis: [N; 3],
+    /// Cosine and sine of θ_o.
+    spread: [N; 2],
+    /// Cosine and sine of θ_o + θ_e, at most π: no edge.
+    edge: [N; 2],
+    intensity: N,
+}
+
+/// Four balls, with what follows below each. A ball that is missing has no intensity.
 #[derive(Copy, Clone, Debug, PartialEq)]
 pub(super) struct Node {
-    center: [Vec4; 3],
-    radius: Vec4,
-    axis: [Vec4; 3],
-    /// Cosine and sine of θ_o.
-    spread: [Vec4; 2],
-    /// Cosine and sine of θ_o + θ_e, at most π: no edge.
-    edge: [Vec4; 2],
-    intensity: Vec4,
+    balls: Ball<Vec4>,
     links: [u32; WIDTH],
 }
 
@@ -80,30 +87,32 @@ pub(super) enum Below {
 impl Node {
     /// Without balls.
     pub const EMPTY: Self = Self {
-        center: [Vec4::ZERO; 3],
-        radius: Vec4::ZERO,
-        axis: [Vec4::ZERO; 3],
-        spread: [Vec4::ZERO; 2],
-        edge: [Vec4::ZERO; 2],
-        intensity: Vec4::ZERO,
+        balls: Ball {
+            center: [Vec4::ZERO; 3],
+            radius: Vec4::ZERO,
+            axis: [Vec4::ZERO; 3],
+            spread: [Vec4::ZERO; 2],
+            edge: [Vec4::ZERO; 2],
+            intensity: Vec4::ZERO,
+        },
         links: [LIGHT; WIDTH],
     };
 
     /// Puts a ball in; `unit` is the intensity that counts as 1, so that single precision holds what distances make of it.
     pub fn set(&mut self, k: usize, bounds: &Bounds, unit: f64, below: Below) {
-        let (center, cone) = (bounds.center(), bounds.cone);
+        let (center, cone, balls) = (bounds.center(), bounds.cone, &mut self.balls);
         let rounding = (center.abs().element_sum() + bounds.extent().length()) * 1e-6;
-        self.radius[k] = (0.5 * bounds.extent().length() + rounding) as f32;
+        balls.radius[k] = (0.5 * bounds.extent().length() + rounding) as f32;
         for coordinate in 0..3 {
-            self.center[coordinate][k] = center[coordinate] as f32;
-            self.axis[coordinate][k] = cone.axis[coordinate] as f32;
+            balls.center[coordinate][k] = center[coordinate] as f32;
+            balls.axis[coordinate][k] = cone.axis[coordinate] as f32;
         }
         let edge = cos_sin((cone.spread + cone.reach).min(PI));
         for (part, value) in cos_sin(cone.spread).into_iter().enumerate() {
-            self.spread[part][k] = value;
-            self.edge[part][k] = edge[part];
+            balls.spread[part][k] = value;
+            balls.edge[part][k] = edge[part];
         }
-        self.intensity[k] = (bounds.intensity / unit) as f32;
+        balls.intensity[k] = (bounds.intensity / unit) as f32;
         self.links[k] = match below {
             Below::Node(number) => number as u32,
             Below::Light(number) => LIGHT | number as u32,
@@ -122,47 +131,84 @@ impl Node {
     /// I of each ball, in units of the tree.
     #[inline(always)]
     pub fn importance(&self, at: &Receiving) -> [f32; WIDTH] {
-        let point = at.point.to_array().map(Vec4::splat);
-        let span: [Vec4; 3] = std::array::from_fn(|axis| point[axis] - self.center[axis]);
-        let squared = dot(span, span).max(Vec4::splat(NEAREST * NEAREST));
-        let per_distance = root(squared).recip();
+        self.balls.importance(at).to_array()
+    }
+
+    /// One of the balls.
+    pub fn ball(&self, k: usize) -> Ball<f32> {
+        let Ball {
+            center,
+            radius,
+            axis,
+            spread,
+            edge,
+            intensity,
+        } = self.balls;
+        Ball {
+            center: center.map(|column| column[k]),
+            radius: radius[k],
+            axis: axis.map(|column| column[k]),
+            spread: spread.map(|column| column[k]),
+            edge: edge.map(|column| column[k]),
+            intensity: intensity[k],
+        }
+    }
+}
+
+impl Ball<f32> {
+    /// Whether nothing can be of importance.
+    pub fn is_dark(&self) -> bool {
+        self.intensity == 0.0
+    }
+}
+
+impl<N: Number> Ball<N> {
+    /// I, in units of the tree.
+    #[inline(always)]
+    pub fn importance(&self, at: &Receiving) -> N {
+        let one = N::splat(1.0);
+        let point = at.point.to_array().map(N::splat);
+        let span: [N; 3] = std::array::from_fn(|axis| point[axis] - self.center[axis]);
+        let squared = dot(span, span).most(N::splat(NEAREST * NEAREST));
+        let per_distance = one / squared.root();
         let way = span.map(|coordinate| coordinate * per_distance);
-        let r = self.radius * per_distance + SLACK;
-        let received = at.normal.map_or(Vec4::ONE, |normal| {
-            let cos = -dot(normal.to_array().map(Vec4::splat), way);
+        let r = self.radius * per_distance + N::splat(SLACK);
+        let received = at.normal.map_or(one, |normal| {
+            let cos = -dot(normal.to_array().map(N::splat), way);
             let diffuse = mean(cos, cos, r);
             at.highlight.map_or(diffuse, |highlight| {
-                let share = Vec4::splat(highlight.gloss.share);
+                let share = N::splat(highlight.gloss.share);
                 diffuse + share * (within(cos, r) * highlight.over(way, r) - diffuse)
             })
         });
-        let near = squared.max(self.radius * self.radius * (1.0 / 3.0));
-        (self.intensity * received * self.emitted(way, r) / near).to_array()
+        let near = squared.most(self.radius * self.radius * N::splat(1.0 / 3.0));
+        self.intensity * received * self.emitted(way, r) / near
     }
 
     /// ē.
     #[inline(always)]
-    fn emitted(&self, way: [Vec4; 3], r: Vec4) -> Vec4 {
+    fn emitted(&self, way: [N; 3], r: N) -> N {
+        let [zero, one] = [0.0, 1.0].map(N::splat);
         let ([cos_spread, sin_spread], [cos_edge, sin_edge]) = (self.spread, self.edge);
         let across = cross(self.axis, way);
-        let (cos, sin) = (dot(self.axis, way), root(dot(across, across)));
-        let within = cos.cmpge(cos_spread);
-        let beyond = Vec4::select(within, Vec4::ONE, cos * cos_spread + sin * sin_spread);
+        let (cos, sin) = (dot(self.axis, way), dot(across, across).root());
+        let turned = cos * cos_spread + sin * sin_spread;
+        let beyond = cos.if_reaching(cos_spread, one, turned);
         let inside = sin_edge * cos - cos_edge * sin;
-        let is_near = (cos_edge * cos + sin_edge * sin).cmpgt(Vec4::ZERO);
-        let inside = Vec4::select(is_near, inside, Vec4::ONE.copysign(inside));
-        let is_open = cos_edge.cmple(Vec4::NEG_ONE);
-        Vec4::select(is_open, Vec4::ONE, mean(beyond, inside, r))
+        let near = cos_edge * cos + sin_edge * sin;
+        let inside = near.if_above(zero, inside, one.signed_as(inside));
+        // Of an angle of π there is no edge.
+        (-one).if_reaching(cos_edge, one, mean(beyond, inside, r))
     }
 }
 
 #[inline(always)]
-pub(super) fn dot(a: [Vec4; 3], b: [Vec4; 3]) -> Vec4 {
+pub(super) fn dot<N: Number>(a: [N; 3], b: [N; 3]) -> N {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-pub(super) fn cross(a: [Vec4; 3], b: [Vec4; 3]) -> [Vec4; 3] {
+pub(super) fn cross<N: Number>(a: [N; 3], b: [N; 3]) -> [N; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -170,21 +216,18 @@ pub(super) fn cross(a: [Vec4; 3], b: [Vec4; 3]) -> [Vec4; 3] {
     ]
 }
 
-#[inline(always)]
-fn root(x: Vec4) -> Vec4 {
-    Vec4::from_array(x.to_array().map(f32::sqrt))
-}
-
 /// f.
 #[inline(always)]
-fn mean(cos: Vec4, inside: Vec4, r: Vec4) -> Vec4 {
-    within(inside, r) * cos.max((cos + r) * 0.5).max(Vec4::ZERO)
+fn mean<N: Number>(cos: N, inside: N, r: N) -> N {
+    let middle = (cos + r) * N::splat(0.5);
+    within(inside, r) * cos.most(middle).most(N::splat(0.0))
 }
 
 /// t.
 #[inline(always)]
-fn within(inside: Vec4, r: Vec4) -> Vec4 {
-    (inside / r * 0.5 + 0.5).clamp(Vec4::ZERO, Vec4::ONE)
+fn within<N: Number>(inside: N, r: N) -> N {
+    let [zero, half, one] = [0.0, 0.5, 1.0].map(N::splat);
+    (inside / r * half + half).most(zero).least(one)
 }
 
 fn cos_sin(angle: f64) -> [f32; 2] {

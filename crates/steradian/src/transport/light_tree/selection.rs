@@ -7,7 +7,8 @@
 //! A of the whole mesh, is called the probability, so that the density of a sample is that of the mesh, r²/(A cosθ_l), times it.
 
 use super::emitters::{Beams, Leaf, leaves};
-use super::{LightTree, Receiving};
+use super::node::{Ball, WIDTH};
+use super::{Drawn, LightTree, Receiving};
 use crate::scene::Scene;
 use crate::transport::tables::Emitter;
 
@@ -71,13 +72,23 @@ impl Selection {
         self.leaves.len() + self.beside.len() > 1
     }
 
-    /// An emitter by its importance at a place, if one may contribute there.
-    pub fn choose(&self, at: &Receiving, u: f64) -> Option<Chosen> {
+    /// Of a tree of few nodes, their balls.
+    pub fn few_balls(&self) -> &[[Ball<f32>; WIDTH]] {
+        self.tree.as_ref().map_or(&[], |tree| &tree.few)
+    }
+
+    /// An emitter by its importance at a place, if one may contribute there, as it is drawn from the tree.
+    #[inline(always)]
+    pub fn choose_by(
+        &self,
+        u: f64,
+        draw: impl FnOnce(&LightTree, f64) -> Option<Drawn>,
+    ) -> Option<Chosen> {
         let share = self.share_beside();
         if u < share {
             return self.choose_beside(u);
         }
-        let drawn = self.tree.as_ref()?.draw(at, (u - share) / (1.0 - share))?;
+        let drawn = draw(self.tree.as_ref()?, (u - share) / (1.0 - share))?;
         let leaf = &self.leaves[drawn.light];
         Some(Chosen {
             emitter: leaf.emitter as usize,
@@ -99,7 +110,7 @@ impl Selection {
         })
     }
 
-    /// Probability with which [`choose`](Self::choose) chooses an emitter at a place; of a mesh, for a point of this triangle.
+    /// Probability with which [`choose_by`](Self::choose_by) chooses an emitter at a place; of a mesh, for a point of this triangle.
     pub fn probability(&self, at: &Receiving, emitter: usize, triangle: u32) -> f32 {
         let (At::Tree(first), Some(tree)) = (self.places[emitter], &self.tree) else {
             return self.probability_beside(emitter);

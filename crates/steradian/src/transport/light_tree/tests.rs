@@ -135,6 +135,31 @@ proptest! {
     }
 }
 
+proptest! {
+    /// A ball by itself, as blocks of places weigh it, is of the importance that it has beside the others of its node, to the last bit.
+    #[test]
+    fn balls_alone_have_the_importance_of_their_nodes(key: u64, count in 1..12_u32) {
+        let tree = LightTree::new(lights(key, count)).unwrap();
+        prop_assert_eq!(tree.few.is_empty(), tree.nodes.len() > FEW);
+        for index in 0..8 {
+            let at = place(key ^ 5, index);
+            for (node, balls) in tree.nodes.iter().zip(&tree.few) {
+                let importance = node.importance(&at).map(f32::to_bits);
+                for (ball, expected) in balls.iter().zip(importance) {
+                    if !ball.is_dark() {
+                        prop_assert_eq!(ball.importance(&at).to_bits(), expected);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn of_many_nodes_no_balls_are_kept() {
+    assert!(LightTree::new(lights(17, 100)).unwrap().few.is_empty());
+}
+
 /// 40 000 draws of 60 lights follow the probabilities; what draws nothing counts as a light of its own.
 #[test]
 fn draws_follow_the_probabilities() {

@@ -10,12 +10,13 @@ use std::sync::Arc;
 pub(super) use emitters::mean;
 use emitters::{emitters, of_light, strengths, weigh_by_power};
 pub(super) use outlines::{Facet, Outline, circumscribed};
-use sides::{Tints, emitting};
+use sides::{Tints, emitting, metal};
 
 use super::light_tree::{Receiving, Selection};
 use super::media::Beside;
 use super::plain::PlainTriangles;
 use super::portals::Portal;
+use crate::brdf::{Later, Metal};
 use crate::light::{Beam, EnvironmentMap, Kind, Light};
 use crate::material::{ColorLanes, Hue, MaterialId, Opacity, Picture, Tint};
 use crate::scene::Scene;
@@ -227,6 +228,8 @@ pub(super) struct Tables<'a> {
     pub lanes: usize,
     /// Side 2·part is the front of a part, 2·part + 1 its back.
     pub sides: Vec<Side>,
+    /// By material, those that are rough metals, the same everywhere and at every wavelength.
+    pub metals: Vec<Option<(Metal, Option<Later>)>>,
     /// The [plain](super::plain) triangles.
     pub plain: PlainTriangles,
     pub emitters: Vec<Emitter>,
@@ -307,6 +310,7 @@ impl<'a> Tables<'a> {
         Self {
             scene,
             lanes: scene.lanes().carried(),
+            metals: scene.materials().iter().map(|(_, m)| metal(m)).collect(),
             plain: PlainTriangles::new(scene.surfaces().triangles(), &sides),
             sides,
             emitters,

@@ -4,6 +4,7 @@
 
 use super::super::media::Beside;
 use super::{Model, NO_EMITTER, NO_TINT, OPAQUE, Side, Tinted};
+use crate::brdf::{Brdf, Later, Metal};
 use crate::light::{Kind, Light, LightId};
 use crate::material::{self, Hue, Material, MaterialId, Opacity, Texture, Tint};
 use crate::scene::Scene;
@@ -84,6 +85,17 @@ fn model(material: &Material) -> Model {
         material::Model::Mirror { .. } => Model::Mirror,
         material::Model::Recipe(_) if material.is_pane() => Model::Pane,
         material::Model::Recipe(_) => Model::Any,
+    }
+}
+
+/// A rough metal that is the same everywhere and at every wavelength, if loops can deal with it.
+pub(super) fn metal(material: &Material) -> Option<(Metal, Option<Later>)> {
+    let material::Model::Recipe(recipe) = &material.model else {
+        return None;
+    };
+    match (recipe.constant(), &material.relief) {
+        (Some(Brdf::RoughConductor(metal)), None) => metal.in_columns(),
+        _ => None,
     }
 }
 

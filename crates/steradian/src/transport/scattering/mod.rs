@@ -15,9 +15,14 @@
 //! the way out. Paths carry radiance from the sensor's end only, so that no other factor for shading
 //! normals or refraction is due; who traces power from the lights needs both (E. Veach 1997, §5.2 and §5.3).
 
+mod metals;
+mod rows;
+
 use std::borrow::Cow;
 
 use glam::Vec3;
+
+pub(super) use metals::Metals;
 
 use super::choice::choose;
 use super::columns::{Flight, Flights, Luggage, Place, Shadows, Vertices, Workspace};
@@ -87,20 +92,10 @@ pub(super) fn scatter(tracer: &Tracer, workspace: &mut Workspace, segment: u32) 
     let encounters = std::mem::take(&mut workspace.encounters);
     workspace.shadows.clear();
     workspace.lit.clear();
-    for encounter in &encounters {
-        let slot = encounter.identity.0 as usize;
-        let wavelengths = workspace.wavelengths[slot];
-        let Some(surface) = Surface::new(tracer.tables, encounter, &wavelengths) else {
-            continue;
-        };
-        workspace.receiving[slot] = surface.receiving();
-        let luggage = &mut workspace.luggage[slot];
-        let lit = (&mut workspace.lit, &mut workspace.shadows);
-        surface.light(tracer, (luggage, &wavelengths), lit);
-        if let Some(flight) = surface.leave(tracer.tables.lanes, luggage, segment) {
-            workspace.flights.push(flight);
-        }
-    }
+    let by_itself = |encounter: &Encounter, workspace: &mut Workspace| {
+        scatter_by_itself(tracer, encounter, workspace, segment);
+    };
+    metals::scatter(tracer, &encounters, workspace, segment, by_itself);
     workspace.encounters = encounters;
     NextEvent {
         tracer,
@@ -108,6 +103,26 @@ pub(super) fn scatter(tracer: &Tracer, workspace: &mut Workspace, segment: u32) 
         still: false,
     }
     .settle_lit(workspace);
+}
+
+fn scatter_by_itself(
+    tracer: &Tracer,
+    encounter: &Encounter,
+    workspace: &mut Workspace,
+    segment: u32,
+) {
+    let slot = encounter.identity.0 as usize;
+    let wavelengths = workspace.wavelengths[slot];
+    let Some(surface) = Surface::new(tracer.tables, encounter, &wavelengths) else {
+        return;
+    };
+    workspace.receiving[slot] = surface.receiving();
+    let luggage = &mut workspace.luggage[slot];
+    let lit = (&mut workspace.lit, &mut workspace.shadows);
+    surface.light(tracer, (luggage, &wavelengths), lit);
+    if let Some(flight) = surface.leave(tracer.tables.lanes, luggage, segment) {
+        workspace.flights.push(flight);
+    }
 }
 
 /// An encounter with the model there.
@@ -277,6 +292,10 @@ impl Encounter {
     pub fn is_at_front(&self) -> bool {
         self.side.is_multiple_of(2)
     }
+}
+
+fn direction(components: [f32; 3]) -> Option<Direction> {
+    Direction::new(Vector::from(components.map(f64::from))).ok()
 }
 
 /// A world direction in local axes.
