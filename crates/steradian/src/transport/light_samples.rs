@@ -74,6 +74,16 @@ pub(super) struct LightSamples<'a> {
 }
 
 impl LightSamples<'_> {
+    /// Whether there are so few emitters that all of them are weighed at every place.
+    pub fn weigh_all(&self) -> bool {
+        !self.balls().is_empty()
+    }
+
+    fn balls(&self) -> &[[Ball<f32>; 4]] {
+        let selection = self.tracer.tables.selection(self.candidates);
+        selection.map_or(&[], |selection| selection.few_balls())
+    }
+
     /// One at each of the first places of a block, by their numbers.
     pub fn draw<const SHINES: bool>(
         &self,
@@ -111,8 +121,7 @@ impl LightSamples<'_> {
         numbers: &[[f32; 2]],
     ) -> [Option<(Sampled, [f32; 2])>; WIDTH] {
         let (tables, candidates) = (self.tracer.tables, self.candidates);
-        let selection = tables.selection(candidates);
-        let balls = selection.map_or(&[][..], |selection| selection.few_balls());
+        let balls = self.balls();
         let mut weights = [[[0.0; WIDTH]; 4]; FEW];
         self.tracer
             .set

@@ -81,8 +81,13 @@ impl NextEvent<'_> {
         stratum: (u32, u32),
         (aims, shadows): (&mut KeptAims, &mut Shadows),
     ) {
-        if self.candidates.receiver == Receiver::Surface {
-            self.sample_blocks(vertices, receiving, numbers, shadows);
+        let samples = LightSamples {
+            tracer: self.tracer,
+            candidates: self.candidates,
+        };
+        let is_surface = self.candidates.receiver == Receiver::Surface;
+        if is_surface && samples.weigh_all() {
+            self.sample_blocks(&samples, (vertices, receiving), numbers, shadows);
             return;
         }
         for i in 0..vertices.len() {
@@ -91,7 +96,10 @@ impl NextEvent<'_> {
             let [u, v] = numbers.map(|column| column[i]);
             let tables = self.tracer.tables;
             let chosen = choose(tables, self.candidates, ([u, v], stratum), || at);
-            if let Some((sampled, u)) = chosen {
+            let Some((sampled, u)) = chosen else { continue };
+            if is_surface {
+                self.sample(i, sampled, [u, v], vertices, shadows);
+            } else {
                 let meters = (vertices, known);
                 self.sample_at_meter((i, sampled), [u, v], meters, (aims, shadows));
             }
@@ -101,15 +109,11 @@ impl NextEvent<'_> {
     /// Samples an emitter chosen by importance at every vertex of a path, a block of them at a time.
     fn sample_blocks(
         &self,
-        vertices: &Vertices,
-        receiving: &mut [Receiving],
+        samples: &LightSamples,
+        (vertices, receiving): (&Vertices, &mut [Receiving]),
         numbers: [&[f32]; 2],
         shadows: &mut Shadows,
     ) {
-        let samples = LightSamples {
-            tracer: self.tracer,
-            candidates: self.candidates,
-        };
         for first in (0..vertices.len()).step_by(WIDTH) {
             let count = WIDTH.min(vertices.len() - first);
             let places = places(vertices, first);
