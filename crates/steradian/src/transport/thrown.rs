@@ -1,4 +1,5 @@
-//! What polished surfaces throw from lights without extent, at meters: a path [from a light](super::light_tracing) for each sample.
+//! What polished surfaces throw from lights without extent, at meters: a path [from a light](super::light_tracing) for each sample of a flux, and
+//! for one of four samples, which stands for all four, at points.
 //!
 //! | meter | what a path of flux Φ brings |
 //! |---|---|
@@ -65,7 +66,7 @@ pub(super) struct Gathering<'t> {
     pub gathered: &'t mut [f32],
 }
 
-/// Sends a path from a light for each sample of these runs, whose slots follow each other.
+/// Sends paths from lights for the samples of these runs, whose slots follow each other.
 pub(super) fn gather(
     light: &LightTracer<'_>,
     streams: &[Stream<'_>],
@@ -79,11 +80,14 @@ pub(super) fn gather(
         let key = hash::combine(run.key, KEY);
         let meter = &streams[run.stream as usize].meter;
         let is_caught = meter.catches() && light.max_depth >= 2 + meter.segments();
+        let period = meter.period();
         for number in 0..run.count {
             let slot = catching.streams.len();
             catching.streams.push(run.stream);
-            if is_caught {
-                let identity = (slot as u32, key, run.first + number);
+            let group = (run.first + number) / period;
+            let turn = hash::mix_64(key ^ u64::from(group)) as u32 % period;
+            if is_caught && (run.first + number) % period == turn {
+                let identity = (slot as u32, key, group);
                 light.launch(identity, &gathering.wavelengths[slot], flock);
             }
         }
@@ -107,6 +111,15 @@ impl Meter<'_> {
             Self::Irradiance { .. } | Self::Scalar { .. } | Self::Cylinder(_) => true,
             Self::Flux(flux) => flux.of != FluxOf::Emitted,
             Self::Surface(_) | Self::Ray { .. } => false,
+        }
+    }
+
+    /// So many samples share a path from a light, one of them by chance: what points have of it is mostly little beside their other light, and
+    /// a path costs more than theirs.
+    fn period(&self) -> u32 {
+        match self {
+            Self::Flux(_) => 1,
+            _ => 4,
         }
     }
 
@@ -163,8 +176,9 @@ impl<'t, 'a> AtMeters<'t, 'a> {
 
     /// What is gathered, of what the reading of a slot gains.
     fn share(&self, slot: u32) -> f32 {
-        let scale = self.meter(slot).scale() * self.gathering.sign[slot as usize];
-        scale.recip() as f32
+        let meter = self.meter(slot);
+        let scale = meter.scale() * self.gathering.sign[slot as usize];
+        (f64::from(meter.period()) / scale) as f32
     }
 }
 
