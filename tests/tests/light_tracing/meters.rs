@@ -294,8 +294,9 @@ fn what_readings_lack_is_told_by_kind() {
     let thrown = "light of `light 0` reflected by mirrors of material `mirror`";
     let at = p(3.0, 0.0, 0.5);
     let straight = format!("{thrown}, as polished surfaces show it to points of readings");
-    assert_eq!(classes(irradiance_at([(at, UP)])), [straight.clone()]);
-    assert_eq!(classes(scalar_irradiance_at(at)), [straight]);
+    for points in [irradiance_at([(at, UP)]), scalar_irradiance_at(at)] {
+        assert_eq!(classes(points), [straight.as_str()]);
+    }
     assert_eq!(classes(radiance_along(at, DOWN)), [thrown]);
     let flux = flux_through(disc(at, UP, 0.1));
     assert_eq!(classes(flux), Vec::<String>::new());
