@@ -206,7 +206,7 @@ fn what_a_pane_does_with_a_sun_is_in_closed_form() {
         for (sensor, (_, _, part)) in scene.sensors.iter().zip(expected) {
             let seen = reading(&found, &sensor.name).estimate;
             assert_agrees(&sensor.name, &seen, 4000.0 * part, 0.1);
-            assert!(part == 0.0 || seen.std_error < 60.0, "{seen:?}");
+            assert!(part == 0.0 || seen.std_error < 100.0, "{seen:?}");
         }
     }
 }
