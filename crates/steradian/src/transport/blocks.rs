@@ -15,7 +15,7 @@ use std::ops::Range;
 use super::branching::Branches;
 use super::branching::pilot::is_worth;
 use super::channels;
-use super::light_tracing::{Aims, LightTracer};
+use super::light_tracing::LightTracer;
 use super::measure::pilot::{POINTS as PILOT_POINTS, STEMS_OF_A_POINT};
 use super::measure::{Meters, Part, Shared, Stream, streams};
 use super::meters::{Context, Prepared};
@@ -226,12 +226,7 @@ impl<'r, 'a> Run<'r, 'a> {
                 .filter_map(|sensor| channels::density(scene, sensor))
                 .collect(),
             branches: vec![],
-            light: Aims::new(tables).map(|aims| LightTracer {
-                tables,
-                set: options.instruction_set,
-                max_depth,
-                aims,
-            }),
+            light: LightTracer::new(tables, options.instruction_set, max_depth),
             unsampled: unsampled(scene, sensors()),
             scene,
             options,

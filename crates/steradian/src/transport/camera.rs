@@ -13,7 +13,7 @@ use self::optics::Optics;
 use super::branching::{BRANCHES, Branches, LIGHT_BLOCK};
 use super::channels;
 use super::columns::{BATCH, Flight, Workspace};
-use super::light_tracing::{Aims, FilmBatch, FilmTracer, LightTracer};
+use super::light_tracing::{FilmBatch, FilmTracer, LightTracer};
 use super::measure::WAVELENGTH_BLOCK;
 use super::path::Tracer;
 use super::profile::Stage;
@@ -51,14 +51,9 @@ impl<'a> CameraSampler<'a> {
     pub fn new(tracer: Tracer<'a>, camera: &Camera, density: Option<WavelengthDensity>) -> Self {
         let lanes = tracer.tables.scene.lanes();
         let channels = CAMERA_CHANNELS.map(|name| lanes.channel(name).unwrap_or(0));
-        let aims = Aims::new(tracer.tables);
-        let light = aims.map(|aims| FilmTracer {
-            light: LightTracer {
-                tables: tracer.tables,
-                set: tracer.set,
-                max_depth: tracer.max_depth,
-                aims,
-            },
+        let light = LightTracer::new(tracer.tables, tracer.set, tracer.max_depth);
+        let light = light.map(|light| FilmTracer {
+            light,
             camera: camera.clone(),
             density: density.clone(),
             channels,
@@ -180,9 +175,8 @@ impl CameraSampler<'_> {
     fn channels(&self, paths: &Workspace, slot: usize) -> [f32; 4] {
         let (tables, waves) = (self.tables(), &paths.wavelengths[slot]);
         self.channels.map(|channel| {
-            let counts = channels::counts(&tables.responses[channel], waves);
-            let lane = |lane: usize| paths.gathered[lane * BATCH + slot] * counts[lane];
-            (lane(0) + lane(1)) + (lane(2) + lane(3))
+            let gathered = |lane: usize| paths.gathered[lane * BATCH + slot];
+            channels::counted(&tables.responses[channel], waves, gathered)
         })
     }
 }

@@ -36,6 +36,17 @@ pub(super) fn counts(response: &BakedCurve, waves: &Wavelengths) -> [f32; MAX_LA
     std::array::from_fn(|lane| response.at(waves.places[lane]) * waves.weights[lane])
 }
 
+/// What the lanes of a path are in a channel of a film.
+pub(super) fn counted(
+    response: &BakedCurve,
+    waves: &Wavelengths,
+    lane: impl Fn(usize) -> f32,
+) -> f32 {
+    let counts = counts(response, waves);
+    let part = |k: usize| lane(k) * counts[k];
+    (part(0) + part(1)) + (part(2) + part(3))
+}
+
 /// From what a sensor's wavelengths are drawn; `None` unless the run is spectral.
 pub(super) fn density(scene: &Scene, sensor: &Sensor) -> Option<WavelengthDensity> {
     let grid = scene.lanes().grid()?;

@@ -58,6 +58,7 @@ impl Tables<'_> {
     }
 }
 
-fn direction(components: [f32; 3]) -> Option<Direction> {
+/// In double precision.
+pub(super) fn direction(components: [f32; 3]) -> Option<Direction> {
     Direction::new(Vector::from(components.map(f64::from))).ok()
 }

@@ -13,14 +13,14 @@ use std::f32::consts::FRAC_1_PI;
 use glam::Vec3;
 
 use crate::brdf::{Brdf, Scatter};
-use crate::geometry::{Direction, Frame, Vector};
+use crate::geometry::{Direction, Frame};
 use crate::material::Site;
 use crate::sampling::warp;
 use crate::spectrum::Wavelengths;
 use crate::transport::columns::Place;
 use crate::transport::interaction::Hit;
 use crate::transport::scatter::to_world;
-use crate::transport::scattering::Encounter;
+use crate::transport::scattering::{Encounter, local};
 use crate::transport::tables::{Lanes4, Model, Side, Tables};
 
 /// Light that has met a surface.
@@ -230,10 +230,4 @@ pub(super) fn straight(hit: &Hit, weight: Lanes4) -> Departure {
         is_specular: true,
         medium: None,
     }
-}
-
-/// A world direction in local axes.
-fn local(frame: &Frame, direction: [f32; 3]) -> Option<Direction> {
-    let direction = Vector::from(direction.map(f64::from));
-    Direction::new(frame.vector_to_local(direction)).ok()
 }

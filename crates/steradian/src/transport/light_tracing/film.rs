@@ -107,9 +107,7 @@ impl FilmTracer<'_> {
             });
         }
         self.channels.map(|channel| {
-            let counts = channels::counts(&tables.responses[channel], wavelengths);
-            let lane = |lane: usize| lanes[lane] * counts[lane];
-            (lane(0) + lane(1)) + (lane(2) + lane(3))
+            channels::counted(&tables.responses[channel], wavelengths, |lane| lanes[lane])
         })
     }
 }

@@ -27,7 +27,6 @@ mod connections;
 mod film;
 mod particles;
 
-pub(super) use aims::Aims;
 pub(super) use arrival::{Arrival, Departure};
 pub(super) use connections::{Connection, Connections};
 pub(super) use film::{FilmBatch, FilmTracer};
@@ -35,6 +34,7 @@ pub(super) use particles::Particle;
 
 use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
 
+use self::aims::Aims;
 use super::interaction::{Hit, hit};
 use super::scatter::{number_at, survives};
 use super::tables::{Model, OPAQUE, Tables};
@@ -46,7 +46,7 @@ pub(super) struct LightTracer<'a> {
     pub tables: &'a Tables<'a>,
     pub set: InstructionSet,
     pub max_depth: u32,
-    pub aims: Aims,
+    aims: Aims,
 }
 
 /// What a sensor takes of the paths.
@@ -79,6 +79,19 @@ pub(super) struct Flock {
     hits: HitBatch,
     /// Rays so far, one that draws a line to a sensor not counted.
     pub traced: u64,
+}
+
+impl<'a> LightTracer<'a> {
+    /// `None` if there is nothing to trace.
+    pub fn new(tables: &'a Tables<'a>, set: InstructionSet, max_depth: u32) -> Option<Self> {
+        let aims = Aims::new(tables)?;
+        Some(Self {
+            tables,
+            set,
+            max_depth,
+            aims,
+        })
+    }
 }
 
 impl LightTracer<'_> {

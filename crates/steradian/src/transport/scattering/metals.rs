@@ -11,6 +11,7 @@ use super::super::columns::{Flight, Identity, Place, Workspace};
 use super::super::light_samples::{Drawn, LightSamples, Places};
 use super::super::path::Tracer;
 use super::super::scatter::{fill, survives, tangents};
+use super::super::shading_normal::direction;
 use super::super::tables::{Lanes4, Tables};
 use super::super::wide::{WIDTH, get, put};
 use super::Encounter;
@@ -240,7 +241,7 @@ fn axes(tables: &Tables, metal: &Metal, encounter: &Encounter) -> Option<[[f32; 
         let [first, second] = tangents(normal);
         return Some([first, second, normal]);
     }
-    let frame = tables.frame(encounter.primitive, super::direction(normal)?);
+    let frame = tables.frame(encounter.primitive, direction(normal)?);
     let axes = [frame.tangent(), frame.bitangent(), frame.normal()];
     Some(axes.map(|axis| single(axis.to_array())))
 }

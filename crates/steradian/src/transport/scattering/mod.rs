@@ -294,12 +294,8 @@ impl Encounter {
     }
 }
 
-fn direction(components: [f32; 3]) -> Option<Direction> {
-    Direction::new(Vector::from(components.map(f64::from))).ok()
-}
-
 /// A world direction in local axes.
-fn local(frame: &Frame, direction: [f32; 3]) -> Option<Direction> {
+pub(super) fn local(frame: &Frame, direction: [f32; 3]) -> Option<Direction> {
     let direction = Vector::from(direction.map(f64::from));
     Direction::new(frame.vector_to_local(direction)).ok()
 }
