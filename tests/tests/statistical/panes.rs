@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use steradian::brdf::Pane;
 use steradian::material::Recipe;
 use steradian::scene::description::{LaneValues, Opacity, SceneDescription, SpectrumMode};
+use steradian::scene::energy_balance;
 use steradian::spectrum::{Beyond, Curve, VISIBLE};
 use steradian_tests::measuring::{measured, reading, rel_error, samples};
 use steradian_tests::scenes::*;
@@ -81,6 +82,20 @@ fn a_lamp_is_measured_through_a_pane() {
         "{:?}",
         measured.unsampled
     );
+}
+
+/// From a lamp thousands of diagonals away nothing is traced, so that what passes a pane is not taken from what it absorbs: the balance tells so, of a pane that reflects nothing, too.
+#[test]
+fn a_balance_tells_what_it_lacks_of_a_pane() {
+    let still = modelled("air", pane_of(1.0, 0.7));
+    let lamp = |height: f64| point_light(p(0.0, 0.0, height), intensity(10.0));
+    for (height, is_complete) in [(2.0, true), (3e4, false)] {
+        let shapes = [square(1.0, 1.0).made_of("air")];
+        let mut scene = scene([still.clone()], shapes, [lamp(height)]);
+        scene.sensors = energy_balance();
+        let measured = measured(&scene, &samples(16));
+        assert_eq!(measured.complete(), is_complete, "{:?}", measured.unsampled);
+    }
 }
 
 /// The radiance of a floor that is lit and seen through the pane.

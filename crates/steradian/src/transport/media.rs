@@ -9,9 +9,9 @@
 //!
 //! A path knows the medium that it is in: air, which absorbs nothing, where it leaves a sensor; behind an interface that
 //! it crosses what the interface's material names for that side. Reflection, masks and panes leave the medium as it is,
-//! and so do materials that name none. A sensor inside a medium takes it for air until the first interface, but light that is [traced from
-//! its source](super::light_tracing) is absorbed up to the sensor if it has come through an interface. Ways begin where
-//! rays do, a few millionths of the size of a surface off it.
+//! and so do materials that name none. A sensor inside a medium takes it for air until the first interface, the last way to a point or a camera of
+//! light that is [traced from its source](super::light_tracing) included; what such light loses before it lands on a flux surface, or passes one, is
+//! absorbed if it has come through an interface. Ways begin where rays do, a few millionths of the size of a surface off it.
 //!
 //! Source: P. Bouguer, *Essai d'optique* (1729); S. Chandrasekhar, *Radiative Transfer* (1960), §7.
 

@@ -18,7 +18,7 @@ use crate::geometry::{Direction, Point, Vector};
 use crate::light::{self, Light};
 use crate::material::{ColorLanes, Material, MaterialId, Site};
 use crate::scene::Scene;
-use crate::sensor::{Camera, FluxOf, FluxSurface, Kind, Sensor};
+use crate::sensor::{Camera, Entry, FluxOf, FluxSurface, Kind, Sensor};
 use crate::shape::{Form, PartId, ShapeId};
 use crate::spectrum::Wavelengths;
 
@@ -175,15 +175,19 @@ fn counts_what_leaves_a_pane(scene: &Scene, sensor: &Sensor) -> bool {
         let part = scene.parts()[part.0 as usize];
         [part.front, part.back].map(|id| scene.material(id).is_pane()) != [false; 2]
     };
-    match &sensor.kind {
-        Kind::Flux {
-            surface: FluxSurface::Shapes { shapes, .. },
-            of,
-            ..
-        } if *of != FluxOf::Incident => {
+    let counts = |surface: &FluxSurface, of: FluxOf| match surface {
+        FluxSurface::Shapes { shapes, .. } if of != FluxOf::Incident => {
             let mut placed = shapes.iter().map(|id| scene.surfaces().shape(*id));
             placed.any(|shape| shape.parts.iter().any(is_pane))
         }
+        _ => false,
+    };
+    match &sensor.kind {
+        Kind::Flux { surface, of, .. } => counts(surface, *of),
+        Kind::Balance(accounts) => accounts.iter().any(|account| match &account.entry {
+            Entry::Flux(surface, of) => counts(surface, *of),
+            Entry::Lights(_) => false,
+        }),
         _ => false,
     }
 }

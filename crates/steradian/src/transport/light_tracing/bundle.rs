@@ -117,9 +117,9 @@ impl Bundle {
             None => cone,
         });
         let window = target.panel.and_then(|panel| {
-            let way = (panel.corner - position).length();
+            let way = (panel.corner - start).length();
             let panel = panel.wider(surfaces.clearance().max(ROUNDING_OF_WAYS * way));
-            let rectangle = SphericalRectangle::new(panel.corner - position, panel.edges)?;
+            let rectangle = SphericalRectangle::new(panel.corner - start, panel.edges)?;
             Some(Self::Window(Window { apex, rectangle }))
         });
         let window = window.filter(|window| window.measure() < cone.measure());
@@ -266,4 +266,68 @@ fn cutoff(beam: Beam) -> f64 {
 
 fn single(vector: Vector) -> [f32; 3] {
     vector.to_array().map(|x| x as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quantity::{Amount, Radiance};
+    use crate::scene::Scene;
+    use crate::scene::description::*;
+
+    fn even_sky() -> Scene {
+        let radiance = Radiance::from_watts_per_square_metre_steradian(1.0);
+        let radiance = Amount::Radiant(radiance);
+        let points = vec![Point::ORIGIN];
+        let description = SceneDescription {
+            lights: vec![LightDescription {
+                name: None,
+                group: None,
+                spectrum: None,
+                schedule: None,
+                repeat: None,
+                kind: LightKind::Environment { radiance },
+            }],
+            sensors: vec![SensorDescription {
+                name: "E".into(),
+                response: None,
+                bins: None,
+                kind: SensorKind::ScalarIrradiance { points },
+            }],
+            ..SceneDescription::default()
+        };
+        Scene::new(&description).unwrap()
+    }
+
+    /// Rays that leave a lamp beside where it is still reach all of a rectangle seen at a slant, and hardly more.
+    #[test]
+    fn a_window_is_that_of_where_rays_start() {
+        let scene = even_sky();
+        let panel = Panel {
+            corner: Point::new(3.5, 0.0, 0.0),
+            edges: [Vector::new(0.5, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0)],
+        };
+        let ball = Ball {
+            center: Point::new(3.75, 0.5, 0.0),
+            radius: 0.56,
+        };
+        let target = Target {
+            shape: None,
+            ball: Some(ball),
+            panel: Some(panel),
+            has_planes: false,
+        };
+        let places = (Point::new(0.0, 0.5, 0.05), Point::new(0.001, 0.5, 0.05));
+        let bundle = Bundle::from_point(scene.surfaces(), places, None, &target);
+        let window = bundle.expect("the lamp shines everywhere");
+        let met = |numbers: [f32; 2]| {
+            let (start, way) = window.sample(numbers);
+            start[0] - way[0] * start[2] / way[2]
+        };
+        let (near, far) = (met([0.0, 0.5]), met([1.0, 0.5]));
+        let (near, far) = (near.min(far), near.max(far));
+        let margin = scene.surfaces().clearance().max(4.0 * ROUNDING_OF_WAYS) as f32;
+        assert!((3.5 - 4.0 * margin..3.5).contains(&near), "{near}");
+        assert!((4.0..4.0 + 4.0 * margin).contains(&far), "{far}");
+    }
 }
