@@ -1,5 +1,5 @@
 //! Beyond ten lamps, few are sampled at each place, chosen by what they may give there: all together they give what they give ten at a
-//! time, each of which is sampled then. Beyond 1024 lamps without extent points sample those too.
+//! time, each of which is sampled then. Beyond 16 384 lamps without extent points sample those too.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -172,7 +172,7 @@ fn a_mesh_is_its_triangles() {
     }
 }
 
-const POINTS: usize = 1100;
+const POINTS: usize = 16_500;
 
 /// So many lamps above a floor with a block on it, and a hundred meters below.
 fn lamps_above_a_floor(range: std::ops::Range<usize>) -> SceneDescription {
@@ -202,7 +202,7 @@ fn lamps_above_a_floor(range: std::ops::Range<usize>) -> SceneDescription {
     scene
 }
 
-/// A hundred points, but for those under the block, against the sums of 1100 lamps: the scores are those of a normal variable. Below 87 %
+/// A hundred points, but for those under the block, against the sums of 16 500 lamps: the scores are those of a normal variable. Below 87 %
 /// within two standard errors is a chance of 1e-3, a mean beyond .4 one of 1e-4.
 #[test]
 fn sampled_sums_of_lamps_have_true_error_bars() {
