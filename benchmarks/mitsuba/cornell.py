@@ -39,19 +39,19 @@ class Steradian:
     name = "Steradian"
 
     def __init__(self, program, filter="gaussian"):
-        self.command = [str(program), "render", str(SCENE), "--max-depth", str(DEPTH), "--filter", filter, "--threads", "1"]
-        # A picture of one pixel: everything but the paths.
-        self.start_up = self.run(4, 0, "--resolution", "1x1").cpu_seconds
+        self.command = [str(program), "render", str(SCENE), "--filter", filter, "--threads", "1"]
+        # A picture of one pixel and no segments: everything but the paths, those of the pilot included.
+        self.start_up = self.run(4, 0, "--resolution", "1x1", depth=0).cpu_seconds
 
     def render(self, samples, seed):
         picture = self.run(samples, seed)
         return picture._replace(cpu_seconds=picture.cpu_seconds - self.start_up)
 
-    def run(self, samples, seed, *more):
+    def run(self, samples, seed, *more, depth=DEPTH):
         with tempfile.TemporaryDirectory(prefix="steradian-cornell-") as directory:
             output = pathlib.Path(directory, "picture.pfm")
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            command = [*self.command, "--samples", str(samples), "--seed", str(seed), "-o", str(output), *more]
+            command = [*self.command, "--max-depth", str(depth), "--samples", str(samples), "--seed", str(seed), "-o", str(output), *more]
             subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             seconds = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime

@@ -7,7 +7,7 @@ SCENE is a module of benchmarks/scenes: cornell, veach_mis, bathroom, hall, glas
 
 Both sides take the same samples a pixel and cut paths off at the same number of segments; Gaussian filter of σ = ½ pixel, one
 thread. Ours draws Owen-scrambled Sobol' points. Mitsuba's `llvm_ad_rgb` and `scalar_rgb` use the multijitter sampler, its best.
-CPU seconds are user and system time: of our process less those of a picture of one pixel; of Mitsuba's warm renders, without
+CPU seconds are user and system time: of our process less those of a picture of one pixel and no segments, so that pilots count; of Mitsuba's warm renders, without
 loading and compiling. Cycles (`--cycles PYTHON`, a Python that has bpy) renders the Cornell box by its default sampler; its
 CPU seconds are less those of a picture of 16 x 16 pixels.
 
@@ -60,17 +60,17 @@ class Picture(typing.NamedTuple):
 class Steradian:
     def __init__(self, program, scene, folder):
         path = scene.ours(folder)
-        self.command = [program, "render", path, "--max-depth", scene.DEPTH, "--filter", "gaussian", "--threads", 1]
-        self.folder = folder
-        self.start_up = self.run(4, 0, "--resolution", "1x1").cpu_seconds
+        self.command = [program, "render", path, "--filter", "gaussian", "--threads", 1]
+        self.depth, self.folder = scene.DEPTH, folder
+        self.start_up = self.run(4, 0, 0, "--resolution", "1x1").cpu_seconds
 
     def render(self, samples, seed):
-        picture = self.run(samples, seed)
+        picture = self.run(samples, seed, self.depth)
         return picture._replace(cpu_seconds=picture.cpu_seconds - self.start_up)
 
-    def run(self, samples, seed, *more):
+    def run(self, samples, seed, depth, *more):
         output = self.folder / "picture.pfm"
-        cost = measure.run([*self.command, "--samples", samples, "--seed", seed, "-o", output, *more], accept=(0, 1))
+        cost = measure.run([*self.command, "--max-depth", depth, "--samples", samples, "--seed", seed, "-o", output, *more], accept=(0, 1))
         return Picture(read_pfm(output), cost.cpu_seconds)
 
 

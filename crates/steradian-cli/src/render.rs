@@ -154,6 +154,7 @@ fn options(arguments: &Arguments) -> Result<RenderOptions, Failure> {
         max_depth: engine.max_depth,
         instruction_set: engine.instruction_set()?,
         resolution: arguments.resolution,
+        ..RenderOptions::default()
     })
 }
 

@@ -13,13 +13,12 @@ mod watch;
 use std::ops::Range;
 
 use super::branching::Branches;
-use super::branching::pilot::is_worth;
 use super::channels;
 use super::light_tracing::LightTracer;
-use super::measure::pilot::{POINTS as PILOT_POINTS, STEMS_OF_A_POINT};
+use super::measure::pilot::POINTS as PILOT_POINTS;
 use super::measure::{Meters, Part, Shared, Stream, streams};
 use super::meters::{Context, Prepared};
-use super::run::{MeasureOptions, SimulationError, chosen_sensors};
+use super::run::{Branching, MeasureOptions, SimulationError, chosen_sensors};
 use super::tables::Tables;
 use super::unsampled::unsampled;
 use crate::estimation::{Observer, Replicates, estimate};
@@ -87,9 +86,9 @@ pub fn measure_in_blocks<E: From<SimulationError>>(
     options.plan.check().map_err(SimulationError::from)?;
     let sizes: Vec<_> = chosen.iter().map(|&sensor| size(scene, sensor)).collect();
     let tables = Tables::new(scene);
-    let run = Run::new(scene, options, &tables, chosen);
     let blocks = cut(&sizes, options.points_of_a_block.max(1));
     let mut watch = Watch::new(observer, &blocks);
+    let run = Run::new(scene, options, &tables, chosen);
     for (number, block) in blocks.iter().enumerate() {
         let ended = |fault| Ended {
             missing: run.unmeasured(&sizes, &blocks[number..]),
@@ -239,15 +238,10 @@ impl<'r, 'a> Run<'r, 'a> {
 
     /// How many paths a sensor's paths branch into: those of a spectral run would share their wavelengths.
     fn branches(&self, position: usize) -> Branches {
-        if !self.densities.is_empty() {
+        if !self.densities.is_empty() || self.options.branching == Branching::Never {
             return Branches::ONE;
         }
         let size = size(self.scene, self.chosen[position]);
-        let plan = &self.options.plan;
-        let stems = size.points.min(PILOT_POINTS) * STEMS_OF_A_POINT;
-        if !is_worth(&plan.stop, size.points as u64, stems) {
-            return Branches::ONE;
-        }
         let mut parts: Vec<_> = spread(&Piece::whole(position, size), size)
             .iter()
             .map(|piece| self.part(piece))
@@ -258,11 +252,8 @@ impl<'r, 'a> Run<'r, 'a> {
         }
         let step = streams.len().div_ceil(PILOT_POINTS);
         let streams = streams.into_iter().step_by(step).collect();
-        let net = plan
-            .stop
-            .samples
-            .map(|n| n as f64 / f64::from(plan.replicates));
-        self.meters(streams).suited_branches(net, plan.threads)
+        self.meters(streams)
+            .suited_branches(self.options.plan.threads)
     }
 
     fn part(&self, piece: &Piece) -> Part<'a> {

@@ -7,7 +7,7 @@
 //!
 //! which is greatest at k = √(V_p C_c / (V_c C_p)). Places on the film and directions at meters are stratified well, so that V_c is small: in the Cornell
 //! box a fiftieth of V_p, while a camera ray with its splats costs about as much as a path. Where pixels see patterns finer than themselves, V_c is
-//! great. A [`pilot`] finds both and decides. In runs too short for one, and in those that end by the clock, camera rays have [`BRANCHES`] and paths of meters one. Everything after the first meeting branches, light samples too.
+//! great. A [`pilot`] finds both and decides, alike for every seed, stopping rule and length of a run: else a run that ends by the clock could not be repeated by its number of samples. Everything after the first meeting branches, light samples too.
 //!
 //! The mean over the branches is unbiased, and each of them is a path of its own as far as roulette is concerned. Branch j of sample i draws the
 //! numbers of index k·i + j, those for its first light too, so that the branches of all samples of a stream are one net; beyond 2³⁰ samples of a replicate the numbers begin again.

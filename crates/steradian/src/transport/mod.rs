@@ -46,5 +46,5 @@ mod wide;
 
 pub use blocks::{Ended, POINTS_OF_A_BLOCK, measure, measure_in_blocks};
 pub use profile::{Stage, StageTimes, profile};
-pub use run::{MeasureOptions, Picture, RenderOptions, SimulationError, render};
+pub use run::{Branching, MeasureOptions, Picture, RenderOptions, SimulationError, render};
 pub use unsampled::unsampled_by_any;

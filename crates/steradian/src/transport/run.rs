@@ -16,6 +16,16 @@ use crate::sampling::hash;
 use crate::scene::{CAMERA_CHANNELS, Scene};
 use crate::sensor::{Camera, Kind, Readout, Sensor};
 
+/// Whether several paths start from what one of a sensor meets first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Branching {
+    /// As many as a pilot finds best for the scene and the sensor, however long the run and whatever the seed; one in spectral runs.
+    #[default]
+    Suited,
+    /// One, without a pilot.
+    Never,
+}
+
 /// How a scene is measured.
 #[derive(Clone, Debug)]
 pub struct MeasureOptions {
@@ -29,6 +39,8 @@ pub struct MeasureOptions {
     pub sensors: Option<Vec<String>>,
     /// Points in work at a time: see [`POINTS_OF_A_BLOCK`].
     pub points_of_a_block: usize,
+    /// How many paths start from what one meets first.
+    pub branching: Branching,
 }
 
 impl Default for MeasureOptions {
@@ -39,6 +51,7 @@ impl Default for MeasureOptions {
             instruction_set: InstructionSet::detect(),
             sensors: None,
             points_of_a_block: POINTS_OF_A_BLOCK,
+            branching: Branching::Suited,
         }
     }
 }
@@ -56,6 +69,8 @@ pub struct RenderOptions {
     pub instruction_set: InstructionSet,
     /// Width and height instead of the camera's.
     pub resolution: Option<[u32; 2]>,
+    /// How many paths start from what a camera ray meets first.
+    pub branching: Branching,
 }
 
 impl Default for RenderOptions {
@@ -73,6 +88,7 @@ impl Default for RenderOptions {
             max_depth: None,
             instruction_set,
             resolution: None,
+            branching: Branching::Suited,
         }
     }
 }
@@ -156,7 +172,7 @@ pub fn render(
     let camera = camera.with_resolution(resolution);
     let film = film(scene, sensor, resolution, options.filter);
     let sampler = CameraSampler::new(tracer, &camera, density);
-    let sampler = sampler.with_suited_branches(&film, &options.plan);
+    let sampler = sampler.branching(options.branching, &film, options.plan.threads);
     let exposure = expose(&sampler, &film, &options.plan, observer)?;
     Ok(Picture {
         scene_name: scene.name().into(),

@@ -6,7 +6,7 @@
 //! V_c = Var(x̄) − V_p/4
 //!
 //! over the nets of one pixel or point. Both are taken relative to the squared value and added up over the pixels or points, 1 % of the squared mean
-//! being added to the former. The nets of a run are longer by a factor f: what branches share is stratified in two dimensions, whose error falls
+//! being added to the former. The nets of a usual run are longer by a factor f: what branches share is stratified in two dimensions, whose error falls
 //! by another √f if edges cause it, and faster if not (Mitchell 1996), so V_c/√f is what counts.
 //!
 //! Costs are counted in rays, [two](STEM) of the stem, more if it has a path from a light, and R of a path: unlike times they are the same in every run.
@@ -14,13 +14,9 @@
 //! Source: D. Mitchell, *Consequences of stratified sampling in graphics* (SIGGRAPH 1996).
 
 use super::{BRANCHES, Branches};
-use crate::estimation::Stopping;
 
 /// Tells the numbers of a pilot from those of the run.
 pub(in super::super) const KEY: u64 = 0x7069_6c6f_7421;
-
-/// A pilot is taken where it is at most this part of a run.
-const LEAST_PART: u64 = 64;
 
 const FLOOR: f64 = 0.01;
 
@@ -31,16 +27,7 @@ const STEM: f64 = 2.0;
 /// samples to choose a number of.
 const CLEARLY: f64 = 0.95;
 
-/// Whether a run of so many points or pixels is worth a pilot of so many stems: one that takes enough samples, or as many as a tolerance needs. A run that ends
-/// by the clock is not, as pilots are not timed.
-pub(in super::super) fn is_worth(stop: &Stopping, points: u64, pilot: usize) -> bool {
-    match stop.samples {
-        Some(samples) => samples.saturating_mul(points) >= LEAST_PART * pilot as u64,
-        None => stop.time.is_none(),
-    }
-}
-
-/// As many branches as suit a pilot of so many stems, whose streams have so many nets each; the nets of the run are longer by a factor.
+/// As many branches as suit a pilot of so many stems, whose streams have so many nets each; the nets of a usual run are longer by a factor.
 pub(in super::super) fn suited(
     threads: usize,
     (stems, nets): (usize, usize),
@@ -179,15 +166,6 @@ mod tests {
             Variances::of(&apart.map(|_| vec![0.0; 2]), 2),
             Variances::default()
         );
-    }
-
-    #[test]
-    fn short_and_timed_runs_have_no_pilot() {
-        let samples = |number| is_worth(&Stopping::at_samples(number), 10, 1000);
-        assert!(samples(6_400) && samples(u64::MAX) && !samples(6_399));
-        assert!(is_worth(&Stopping::at_rel_error(0.01), 1, 1000));
-        let time = std::time::Duration::from_secs(1);
-        assert!(!is_worth(&Stopping::at_time(time), 1, 1000));
     }
 
     #[test]

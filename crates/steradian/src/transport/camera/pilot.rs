@@ -1,10 +1,10 @@
 //! A pilot of a picture: how many branches its camera rays have.
 
 use super::super::branching::Branches;
-use super::super::branching::pilot::{KEY, is_worth, suited};
+use super::super::branching::pilot::{KEY, suited};
 use super::super::columns::{BATCH, Workspace};
+use super::super::run::Branching;
 use super::CameraSampler;
-use crate::estimation::Plan;
 use crate::estimation::film::{CHANNELS, Film, PixelBatch};
 use crate::sampling::{block, hash};
 
@@ -13,26 +13,24 @@ const PIXELS: usize = 512;
 const NETS: usize = 2;
 const SAMPLES_OF_A_NET: usize = 8;
 const STEMS: usize = PIXELS * NETS * SAMPLES_OF_A_NET;
-/// Samples of a pixel in a pass where that is not told.
+/// Samples of a pixel in a pass, as a rule.
 const USUAL_NET: f64 = 16.0;
 const PIXELS_OF_A_BATCH: usize = BATCH / (NETS * SAMPLES_OF_A_NET);
 
 impl<'a> CameraSampler<'a> {
-    /// The same with as many branches as suit the picture, if it is worth finding out.
-    pub fn with_suited_branches(mut self, film: &Film, plan: &Plan) -> Self {
-        let pixels = u64::from(film.width) * u64::from(film.height);
-        if self.branches != Branches::ONE && is_worth(&plan.stop, pixels, STEMS) {
-            let of_pass = |samples| samples as f64 / f64::from(plan.replicates);
-            let net = plan.stop.samples.map_or(USUAL_NET, of_pass);
-            let longer = net / SAMPLES_OF_A_NET as f64;
-            self.branches = self.suited_branches(film, longer, plan.threads);
-        }
+    /// The same with as many branches as are wanted: one in a spectral run, where they would share their wavelengths.
+    pub fn branching(mut self, branching: Branching, film: &Film, threads: usize) -> Self {
+        self.branches = match branching {
+            Branching::Suited if self.density.is_none() => self.suited_branches(film, threads),
+            Branching::Suited | Branching::Never => Branches::ONE,
+        };
         self
     }
 
     /// They are the same for every seed.
-    fn suited_branches(&self, film: &Film, longer: f64, threads: usize) -> Branches {
+    fn suited_branches(&self, film: &Film, threads: usize) -> Branches {
         let key = hash::combine(film.key, KEY);
+        let longer = USUAL_NET / SAMPLES_OF_A_NET as f64;
         suited(threads, (STEMS, NETS), longer, |branches| {
             let mut paths = Workspace::default();
             let batches = 0..PIXELS / PIXELS_OF_A_BATCH;

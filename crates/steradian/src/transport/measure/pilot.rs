@@ -11,17 +11,17 @@ use crate::sampling::hash;
 pub(in super::super) const POINTS: usize = 32;
 const NETS: usize = 8;
 const SAMPLES_OF_A_NET: usize = 32;
-/// Samples of a point in a replicate where that is not told.
+/// Samples of a point in a replicate, as a rule.
 const USUAL_NET: f64 = 256.0;
 /// Stems of a point.
-pub(in super::super) const STEMS_OF_A_POINT: usize = NETS * SAMPLES_OF_A_NET;
+const STEMS_OF_A_POINT: usize = NETS * SAMPLES_OF_A_NET;
 const STREAMS_OF_A_BATCH: usize = BATCH / STEMS_OF_A_POINT;
 
 impl Meters<'_> {
-    /// As many branches as suit these streams in nets of so many samples, the same for every seed.
-    pub fn suited_branches(&self, net: Option<f64>, threads: usize) -> Branches {
+    /// As many branches as suit these streams, the same for every seed.
+    pub fn suited_branches(&self, threads: usize) -> Branches {
         let stems = self.streams.len() * STEMS_OF_A_POINT;
-        let longer = net.unwrap_or(USUAL_NET) / SAMPLES_OF_A_NET as f64;
+        let longer = USUAL_NET / SAMPLES_OF_A_NET as f64;
         suited(threads, (stems, NETS), longer, |branches| {
             let mut workspace = self.new_workspace();
             let first = (0..self.streams.len()).step_by(STREAMS_OF_A_BATCH);
