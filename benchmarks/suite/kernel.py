@@ -7,7 +7,7 @@ BENCH is the executable of `cargo bench -p steradian-benches --bench kernel_embr
 write is told in benchmarks/embree/README.md; without it nothing can be measured, for it also makes the meshes and rays.
 
 In each round both programs trace the same rays on one thread, one after the other, in thread processor time. The figure of a
-round is the mean over half a second of passes on our side, the fastest of three passes on Embree's, which favours Embree a little. Embree is asked one ray at a time, in streams of 1024, and in packets of 8 and
+round is the fastest tenth of a second of half a second of passes on our side, the fastest of three passes on Embree's. Embree is asked one ray at a time, in streams of 1024, and in packets of 8 and
 16; its trees are those of RTC_BUILD_QUALITY_HIGH.
 """
 
@@ -96,7 +96,7 @@ def main():
         return measure.missing("Embree", INSTALL)
     resolution = 256 if given.quick else 512
     embree = Embree(given.embree, given.cache, resolution)
-    how = f"{resolution}² rays, one thread; ours: mean of passes over ½ s, Embree: fastest of 3; best way: the fastest of single ray, stream of 1024, packets of 8 and 16"
+    how = f"{resolution}² rays, one thread; ours: fastest tenth of a second of ½ s, Embree: fastest of 3 passes; best way: the fastest of single ray, stream of 1024, packets of 8 and 16"
     meshes = [name for name in MESHES if not given.quick or name.endswith("100k")]
     for round in range(given.rounds):
         for mesh in meshes:
