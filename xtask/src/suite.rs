@@ -8,7 +8,7 @@ use crate::{layers, licences, schema};
 
 const TESTS: &str = "steradian-tests";
 
-/// Format, lints (the command without its features, too), layers, licences, tests with documentation tests, every reflection model's checks, quick statistics in release mode, generated files.
+/// Format, lints (the command without its features, too), layers, licences, tests with documentation tests, every reflection model's checks, generated files.
 pub fn test(root: &Path) -> Result<(), String> {
     let run = |arguments: &[&str]| succeed(&mut cargo(root, arguments));
     let mut steps = Steps::default();

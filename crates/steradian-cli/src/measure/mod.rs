@@ -152,7 +152,7 @@ struct Stop {
     #[arg(long, value_name = "QUANTITY")]
     abs_error: Option<String>,
     /// Stop when the 95 % intervals of a sensor are within this part of the values in the root mean square: points that vary more get more
-    /// samples
+    /// samples; beyond 16 384 points each block of as many by itself
     #[arg(long, value_name = "RATIO", value_parser = values::ratio, conflicts_with_all = ["rel_error", "abs_error", "shard", "balance"])]
     rms_error: Option<f64>,
     /// Stop after this time: 30s, 5min …
