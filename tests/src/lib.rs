@@ -14,6 +14,7 @@
 //! sampled reading fails by chance with the probability that Student's t with R − 1 degrees of freedom exceeds 4:
 //! 1.2e-3 at R = 16, 1.7e-4 at R = 64.
 
+pub mod binomial;
 pub mod cases;
 pub mod command;
 pub mod luminaires;

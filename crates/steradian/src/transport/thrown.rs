@@ -15,8 +15,9 @@
 //! | T | transmittance from D to the meter | 1 |
 //! | r, θ | distance of D, and its angle from the meter's normal | m, rad |
 //!
-//! E is bounded by the distance of the point from what may light it, and so is not where surfaces that are lit come close to the point, as in a
-//! corner: there its variance grows with the inverse square of the distance. As in pictures, finer normals at grazing light have no bound. The numbers of a sample's path from the light are its own, so that its
+//! E grows with the inverse square of the distance where surfaces that are lit come close to the point, as in a corner. Light at a point that a plane throws
+//! there is [aimed at](super::light_tracing) in part, so that its weights are bounded for each place and plane; what curved surfaces, several in turn, or light from a
+//! direction throw is not, and its variance grows with the inverse square of the point's distance from what they light. As in pictures, finer normals at grazing light have no bound. The numbers of a sample's path from the light are its own, so that its
 //! replicate is one of both.
 
 mod landing;
@@ -81,6 +82,7 @@ pub(super) fn gather(
         let meter = &streams[run.stream as usize].meter;
         let is_caught = meter.catches() && light.max_depth >= 2 + meter.segments();
         let period = meter.period();
+        let point = meter.place(0.5).map(|place| Vec3::from_array(place.point));
         for number in 0..run.count {
             let slot = catching.streams.len();
             catching.streams.push(run.stream);
@@ -88,7 +90,7 @@ pub(super) fn gather(
             let turn = hash::mix_64(key ^ u64::from(group)) as u32 % period;
             if is_caught && (run.first + number) % period == turn {
                 let identity = (slot as u32, key, group);
-                light.launch(identity, &gathering.wavelengths[slot], flock);
+                light.launch(identity, point, &gathering.wavelengths[slot], flock);
             }
         }
     }

@@ -74,3 +74,6 @@ impl<I: Integrand> Session<'_, I> {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -92,3 +92,6 @@ fn draw(film: &Film, key: u64, batch: usize, row: usize) -> Draw {
         film: [corner(0, film.width) + x, corner(1, film.height) + y, u, v],
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,6 +12,8 @@
 //! | ω, A | solid angle of the cone, area of the disc | sr, m² |
 //! | P | probability of this light and shape | 1 |
 //!
+//! For a point, a part of the paths from a light at a point to a plane is [aimed](super::focus) at its image; ω is then the inverse of the density of both.
+//!
 //! P goes by the flux that the light sends into the cone in the mean over all its directions, a tenth of it evenly. An infinite plane takes all
 //! directions of a light at a point; parallel light is not sent there.
 
@@ -21,6 +23,8 @@ use glam::Vec3;
 
 use super::ball::{Ball, Obstacles};
 use super::bundle::{Bundle, Panel, Target};
+use super::focus::{Focus, Plane};
+use crate::geometry::Vector;
 use crate::material::Site;
 use crate::sampling::discrete::Discrete;
 use crate::shape::{Form, ShapeId};
@@ -32,6 +36,8 @@ use crate::transport::unsampled::{is_out_of_reach, polished_shapes};
 const PAIRS: usize = 1 << 16;
 /// The part of all paths that is dealt out evenly.
 const EVENLY: f64 = 0.1;
+/// The part of the paths to a plane, for a point, that are aimed at its image.
+const FOCUSED: f64 = 0.25;
 
 /// All pairs of a light and what it is sent to.
 pub(in crate::transport) struct Aims {
@@ -46,6 +52,8 @@ struct Aim {
     /// None: whatever is polished.
     target: Option<ShapeId>,
     bundle: Bundle,
+    /// Of the target.
+    plane: Option<Plane>,
 }
 
 /// How a path begins.
@@ -79,11 +87,11 @@ impl Aims {
             let obstacles = &obstacles;
             let aim = move |target: &Target| {
                 let bundle = Bundle::new((surfaces, obstacles), light, target)?;
-                let target = target.shape;
                 Some(Aim {
                     emitter,
-                    target,
+                    target: target.shape,
                     bundle,
+                    plane: target.plane,
                 })
             };
             targets.iter().filter(move |_| is_near).filter_map(aim)
@@ -96,20 +104,19 @@ impl Aims {
         Some(Self { aims, choice })
     }
 
-    /// A path from one of the lights.
+    /// A path from one of the lights, maybe for a point in kernel coordinates.
     pub(super) fn sample(
         &self,
         tables: &Tables<'_>,
-        choice: f32,
-        u: [f32; 2],
+        [choice, u, v, part]: [f32; 4],
+        point: Option<Vec3>,
         waves: &Wavelengths,
     ) -> Option<Start> {
         let choice = self.choice.choose(choice);
         let aim = &self.aims[choice.index];
-        let (origin, direction) = aim.bundle.sample(u);
-        let direction = Vec3::from_array(direction).normalize();
+        let (origin, direction, measure) = aim.ray([u, v], part, point);
         let emitter = &tables.emitters[aim.emitter];
-        let measure = aim.bundle.measure() / choice.probability;
+        let measure = measure / choice.probability;
         let factor = factor(tables, emitter, direction) * measure as f32;
         let power = tables.lanes_at(&emitter.power, waves, || Site::NOWHERE);
         (factor > 0.0).then(|| Start {
@@ -132,6 +139,7 @@ fn targets(tables: &Tables<'_>, lamps: usize, pairs: usize) -> Vec<Target> {
         Target {
             shape: Some(*id),
             panel: panel(&surfaces.shape(*id).form),
+            plane: Plane::of(&surfaces.shape(*id).form, surfaces),
             has_planes: ball.is_none(),
             ball,
         }
@@ -144,6 +152,7 @@ fn targets(tables: &Tables<'_>, lamps: usize, pairs: usize) -> Vec<Target> {
         shape: None,
         ball: Ball::around_all(&balls),
         panel: None,
+        plane: None,
         has_planes: balls.len() < shapes.len(),
     }]
 }
@@ -159,6 +168,32 @@ fn panel(form: &Form) -> Option<Panel> {
 }
 
 impl Aim {
+    /// Start and direction of a ray, and the inverse of the density with which it is drawn.
+    fn ray(&self, u: [f32; 2], part: f32, point: Option<Vec3>) -> ([f32; 3], Vec3, f64) {
+        let unit = |direction: [f32; 3]| Vec3::from_array(direction).normalize();
+        let measure = self.bundle.measure();
+        let Some((apex, focus)) = point.and_then(|point| self.focus(point)) else {
+            let (origin, direction) = self.bundle.sample(u);
+            return (origin, unit(direction), measure);
+        };
+        let direction = if part < FOCUSED as f32 {
+            unit(focus.sample(u).to_array().map(|x| x as f32))
+        } else {
+            unit(self.bundle.sample(u).1)
+        };
+        let density = focus.density(double(direction));
+        let density = (1.0 - FOCUSED) / measure + FOCUSED * density;
+        (apex, direction, 1.0 / density)
+    }
+
+    fn focus(&self, point: Vec3) -> Option<([f32; 3], Focus)> {
+        let apex = self.bundle.apex()?;
+        let focus = self
+            .plane?
+            .focus(double(Vec3::from_array(apex)), double(point))?;
+        Some((apex, focus))
+    }
+
     /// Proportional to the flux that the light sends here if it sends as much in all its directions.
     fn weight(&self, tables: &Tables<'_>) -> f64 {
         let emitter = &tables.emitters[self.emitter];
@@ -184,6 +219,10 @@ fn factor(tables: &Tables<'_>, emitter: &Emitter, direction: Vec3) -> f32 {
         _ if emitter.is_directed => tables.factor(emitter, direction),
         _ => 1.0,
     }
+}
+
+fn double(vector: Vec3) -> Vector {
+    Vector::from(vector.to_array().map(f64::from))
 }
 
 #[cfg(test)]

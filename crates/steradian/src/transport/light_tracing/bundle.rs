@@ -10,6 +10,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::ball::{Ball, Obstacles};
+use super::focus::Plane;
 use crate::geometry::{Direction, Frame, Point, Vector};
 use crate::light::{Beam, Kind, Light, Outlet};
 use crate::sampling::spherical_rectangle::SphericalRectangle;
@@ -24,6 +25,8 @@ pub(super) struct Target {
     pub ball: Option<Ball>,
     /// What it is, if it is a parallelogram.
     pub panel: Option<Panel>,
+    /// The plane that it lies in, if it is known to.
+    pub plane: Option<Plane>,
     /// Whether there are planes, of which only light at a point finds the polish.
     pub has_planes: bool,
 }
@@ -148,6 +151,14 @@ impl Bundle {
             Self::Window(window) => window.rectangle.solid_angle().to_steradians(),
             Self::Shaft(shaft) => PI * shaft.radius * shaft.radius,
             Self::Prism(prism) => prism.area,
+        }
+    }
+
+    /// Where all rays start, of light at a point.
+    pub fn apex(&self) -> Option<[f32; 3]> {
+        match self {
+            Self::Cone(Cone { apex, .. }) | Self::Window(Window { apex, .. }) => Some(*apex),
+            Self::Shaft(_) | Self::Prism(_) => None,
         }
     }
 

@@ -75,7 +75,7 @@ impl FilmTracer<'_> {
             for index in from..to {
                 let slot = wavelengths.len() as u32;
                 let waves = self.wavelengths(key, index);
-                self.light.launch((slot, key, index), &waves, flock);
+                self.light.launch((slot, key, index), None, &waves, flock);
                 wavelengths.push(waves);
             }
             self.light.follow(flock, wavelengths, &mut catch);

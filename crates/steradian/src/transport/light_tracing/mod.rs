@@ -25,6 +25,7 @@ mod ball;
 mod bundle;
 mod connections;
 mod film;
+mod focus;
 mod particles;
 
 pub(super) use arrival::{Arrival, Departure};
@@ -32,6 +33,7 @@ pub(super) use connections::{Connection, Connections};
 pub(super) use film::{FilmBatch, FilmTracer};
 pub(super) use particles::Particle;
 
+use glam::Vec3;
 use steradian_kernel::{HitBatch, InstructionSet, MISS, RayBatch};
 
 use self::aims::Aims;
@@ -95,10 +97,16 @@ impl<'a> LightTracer<'a> {
 }
 
 impl LightTracer<'_> {
-    /// Lets the path of this slot, key and index start.
-    pub fn launch(&self, identity: (u32, u64, u32), waves: &Wavelengths, flock: &mut Flock) {
-        let [choice, u, v, _] = block::sample(identity.1, identity.2, 0);
-        let start = self.aims.sample(self.tables, choice, [u, v], waves);
+    /// Lets the path of this slot, key and index start; if it is for a point, it may be aimed there.
+    pub fn launch(
+        &self,
+        identity: (u32, u64, u32),
+        point: Option<Vec3>,
+        waves: &Wavelengths,
+        flock: &mut Flock,
+    ) {
+        let numbers = block::sample(identity.1, identity.2, 0);
+        let start = self.aims.sample(self.tables, numbers, point, waves);
         let path = start.map(|start| Particle::new(start, identity));
         flock.flying.extend(path);
     }

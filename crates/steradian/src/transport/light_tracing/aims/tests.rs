@@ -92,8 +92,8 @@ fn brought(scene: &Scene, aims: &Aims, tables: &Tables<'_>, count: u32) -> Vec<f
     let (mut rays, mut hits) = (RayBatch::default(), HitBatch::default());
     let mut sent = vec![];
     for index in 0..count {
-        let [choice, u, v, _] = block::sample(7, index, 0);
-        let start = aims.sample(tables, choice, [u, v], &Wavelengths::default());
+        let numbers = block::sample(7, index, 0);
+        let start = aims.sample(tables, numbers, None, &Wavelengths::default());
         let start = start.expect("points shine everywhere");
         rays.push(start.origin, start.direction, f32::INFINITY);
         sent.push(start);
