@@ -6,7 +6,7 @@ use crate::instruction_set::{InstructionSet, Kernel};
 use crate::node::{Bounds, WIDTH};
 use crate::packet::{Packet, Patience};
 use crate::prepared_ray::PreparedRay;
-use crate::region;
+use crate::region::Regions;
 use crate::simd::Simd;
 use crate::small_scene::SmallScene;
 use crate::traversal::{self, Closest, Target};
@@ -136,7 +136,12 @@ impl Accelerator {
     /// Touching counts. The answer may be false for a region that is clear by less than about 10⁻¹² of the coordinates,
     /// near an edge of a curved primitive, or inside a sphere; it is never true for one that is blocked.
     pub fn region_is_clear(&self, planes: &[[f64; 4]], ignore: &dyn Fn(u32) -> bool) -> bool {
-        region::is_clear(self, planes, ignore)
+        self.regions().each(planes, ignore, &mut |_| false)
+    }
+
+    /// Asks about many regions.
+    pub fn regions(&self) -> Regions<'_> {
+        Regions::new(self)
     }
 
     /// Lower and upper corner of the box around everything that has one; nothing if that is empty.

@@ -61,3 +61,4 @@ pub use batch::{Hit, HitBatch, MISS, Ray, RayBatch};
 pub use geometry::{BuildError, COORDINATE_LIMIT, Cap, Geometry, Quadric};
 pub use instruction_set::{InstructionSet, Work};
 pub use prefetch::prefetch;
+pub use region::{Obstacle, Regions};

@@ -18,59 +18,136 @@ type Homogeneous = [f64; 4];
 /// `[n_x, n_y, n_z, d]`.
 type HalfSpace = [f64; 4];
 
-pub(crate) fn is_clear(
-    accelerator: &Accelerator,
-    planes: &[HalfSpace],
-    ignore: &dyn Fn(u32) -> bool,
-) -> bool {
-    let quadric_blocks = |index: usize| {
-        !ignore(accelerator.quadric_number(index))
-            && reaches(&accelerator.quadrics()[index], planes)
-    };
-    if accelerator
-        .unbounded()
-        .iter()
-        .any(|&index| quadric_blocks(index as usize))
-    {
-        return false;
+/// A primitive that reaches into a region.
+#[derive(Copy, Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    /// Its number.
+    pub primitive: u32,
+    /// The corners of a triangle.
+    pub corners: Option<[[f32; 3]; 3]>,
+}
+
+/// Asks an accelerator about regions, in memory that is used again.
+pub struct Regions<'a> {
+    accelerator: &'a Accelerator,
+    open: Vec<usize>,
+    clipper: Clipper,
+}
+
+impl<'a> Regions<'a> {
+    pub(crate) fn new(accelerator: &'a Accelerator) -> Self {
+        Self {
+            accelerator,
+            open: vec![],
+            clipper: Clipper::default(),
+        }
     }
-    let tree = accelerator.tree();
-    let mut clipper = Clipper::default();
-    let mut open: Vec<usize> = (0..tree.nodes.len().min(1)).collect();
-    while let Some(node) = open.pop() {
-        for (bounds, child) in tree.nodes[node].used() {
-            if is_outside(&bounds, planes) {
-                continue;
-            }
-            let blocked = match child.below() {
-                Below::Node(index) => {
-                    open.push(index);
-                    false
-                }
-                Below::Leaf(index) => {
-                    leaf_blocks(&tree.leaves[index], planes, ignore, &mut clipper)
-                }
-                Below::Quadric(index) => quadric_blocks(index),
-            };
-            if blocked {
-                return false;
+
+    /// Adds the primitives that reach into the region of the points x with n · x ≤ d for every plane `[n_x, n_y, n_z, d]`, except those that
+    /// `ignore` accepts; false, and not all of them, if they are more than `most`. [`Accelerator::region_is_clear`] tells what counts.
+    pub fn collect(
+        &mut self,
+        planes: &[HalfSpace],
+        ignore: &dyn Fn(u32) -> bool,
+        most: usize,
+        obstacles: &mut Vec<Obstacle>,
+    ) -> bool {
+        let most = obstacles.len() + most;
+        self.each(planes, ignore, &mut |obstacle| {
+            obstacles.push(obstacle);
+            obstacles.len() <= most
+        })
+    }
+
+    /// Whether an obstacle of another region reaches into this one.
+    pub fn reaches(&mut self, planes: &[HalfSpace], obstacle: &Obstacle) -> bool {
+        match &obstacle.corners {
+            Some(corners) => self.clipper.reaches(&corners.map(homogeneous), planes),
+            None => {
+                let first = self.accelerator.quadric_number(0);
+                let index = obstacle.primitive - first;
+                reaches(&self.accelerator.quadrics()[index as usize], planes)
             }
         }
     }
-    true
+
+    /// Shows the primitives in a region one by one for as long as `go_on` accepts them, and tells whether it always did.
+    pub(crate) fn each(
+        &mut self,
+        planes: &[HalfSpace],
+        ignore: &dyn Fn(u32) -> bool,
+        go_on: &mut dyn FnMut(Obstacle) -> bool,
+    ) -> bool {
+        let accelerator = self.accelerator;
+        for &index in accelerator.unbounded() {
+            if !quadric_passes(accelerator, index as usize, (planes, ignore), go_on) {
+                return false;
+            }
+        }
+        let tree = accelerator.tree();
+        self.open.clear();
+        self.open.extend(0..tree.nodes.len().min(1));
+        while let Some(node) = self.open.pop() {
+            for (bounds, child) in tree.nodes[node].used() {
+                if is_outside(&bounds, planes) {
+                    continue;
+                }
+                let passed = match child.below() {
+                    Below::Node(index) => {
+                        self.open.push(index);
+                        true
+                    }
+                    Below::Leaf(index) => {
+                        let clipper = &mut self.clipper;
+                        leaf_passes(&tree.leaves[index], (planes, ignore), clipper, go_on)
+                    }
+                    Below::Quadric(index) => {
+                        quadric_passes(accelerator, index, (planes, ignore), go_on)
+                    }
+                };
+                if !passed {
+                    return false;
+                }
+            }
+        }
+        true
+    }
 }
 
-fn leaf_blocks(
+fn leaf_passes(
     leaf: &Leaf,
-    planes: &[HalfSpace],
-    ignore: &dyn Fn(u32) -> bool,
+    (planes, ignore): (&[HalfSpace], &dyn Fn(u32) -> bool),
     clipper: &mut Clipper,
+    go_on: &mut dyn FnMut(Obstacle) -> bool,
 ) -> bool {
-    leaf.lanes().any(|(lane, number)| {
+    leaf.lanes().all(|(lane, primitive)| {
         let corners = leaf.triangle(lane, [0, 1, 2]);
-        let corners = corners.map(|[x, y, z]| [x.into(), y.into(), z.into(), 1.0]);
-        !ignore(number) && clipper.reaches(&corners, planes)
+        ignore(primitive)
+            || !clipper.reaches(&corners.map(homogeneous), planes)
+            || go_on(Obstacle {
+                primitive,
+                corners: Some(corners),
+            })
     })
+}
+
+fn quadric_passes(
+    accelerator: &Accelerator,
+    index: usize,
+    (planes, ignore): (&[HalfSpace], &dyn Fn(u32) -> bool),
+    go_on: &mut dyn FnMut(Obstacle) -> bool,
+) -> bool {
+    let primitive = accelerator.quadric_number(index);
+    ignore(primitive)
+        || !reaches(&accelerator.quadrics()[index], planes)
+        || go_on(Obstacle {
+            primitive,
+            corners: None,
+        })
+}
+
+fn homogeneous([x, y, z]: [f32; 3]) -> Homogeneous {
+    [x.into(), y.into(), z.into(), 1.0]
 }
 
 fn reaches(quadric: &Quadric, planes: &[HalfSpace]) -> bool {

@@ -14,6 +14,7 @@ mod panes;
 mod reflection;
 mod relief;
 mod reproducible;
+mod rosters;
 mod scattering;
 mod spectral;
 mod spectrum;

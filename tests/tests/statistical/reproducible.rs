@@ -127,6 +127,39 @@ fn with_a_row() -> SceneDescription {
     scene
 }
 
+/// A row of points below a hundred panels and two screens.
+fn many_panels() -> SceneDescription {
+    let edges = [v(0.0, 0.2, 0.0), v(0.2, 0.0, 0.0)];
+    let panel = |k: usize| {
+        let [x, y] = [k % 10, k / 10].map(|number| 0.4 * number as f64 - 2.0);
+        rectangle(p(x, y, 2.5), edges).emitting(radiance(30.0))
+    };
+    let mut scene = with_a_row();
+    scene.shapes.extend((0..100).map(panel));
+    let screen = [v(0.6, 0.0, 0.1), v(0.0, 1.0, 0.0)];
+    let screens = [p(-0.9, 0.0, 0.6), p(0.4, -0.2, 1.0)];
+    scene.shapes.extend(screens.map(|at| rectangle(at, screen)));
+    scene
+}
+
+#[test]
+fn many_lamps_change_no_bit() {
+    let by = |points_of_a_block, threads, instruction_set| {
+        let mut options = MeasureOptions {
+            points_of_a_block,
+            instruction_set,
+            ..options(stops()[0])
+        };
+        options.plan.threads = threads;
+        measured(&many_panels(), &options)
+    };
+    let whole = by(100, 1, InstructionSet::detect());
+    assert_eq!(whole, by(3, 4, InstructionSet::detect()));
+    for set in InstructionSet::available() {
+        assert_eq!(whole, by(100, 2, set), "{set:?}");
+    }
+}
+
 fn in_blocks(points_of_a_block: usize, stop: Stopping) -> Measurements {
     let options = MeasureOptions {
         points_of_a_block,

@@ -48,19 +48,25 @@ pub(super) fn choose(
     choose_by(tables, candidates, numbers, |tree, u| tree.draw(&at(), u))
 }
 
+/// A number of one of so many strata, with more digits by a second one.
+#[inline(always)]
+pub(super) fn refined([u, v]: [f32; 2], (stratum, strata): (u32, u32)) -> f64 {
+    let fine = f64::from(hash::mix_32(v.to_bits())) * 0.5_f64.powi(56);
+    (f64::from(stratum) + f64::from(u) + fine) / f64::from(strata)
+}
+
 /// The same by whatever draws a light from the tree.
 #[inline(always)]
 pub(super) fn choose_by(
     tables: &Tables,
     candidates: Candidates,
-    ([u, v], (stratum, strata)): ([f32; 2], (u32, u32)),
+    ([u, v], stratum): ([f32; 2], (u32, u32)),
     draw: impl FnOnce(&LightTree, f64) -> Option<light_tree::Drawn>,
 ) -> Option<(Sampled, f32)> {
     let Choice::ByImportance { samples } = candidates.choice else {
         return Some((Sampled::each(0), u));
     };
-    let fine = f64::from(hash::mix_32(v.to_bits())) * 0.5_f64.powi(56);
-    let u = (f64::from(stratum) + f64::from(u) + fine) / f64::from(strata);
+    let u = refined([u, v], stratum);
     let chosen = tables.selection(candidates)?.choose_by(u, draw)?;
     let sampled = Sampled {
         number: chosen.emitter,

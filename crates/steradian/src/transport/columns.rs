@@ -10,6 +10,7 @@ use super::light_tree::Receiving;
 use super::media::AIR;
 use super::patterned::Patterned;
 use super::profile::StopWatch;
+use super::roster::RosterColumn;
 use super::scattering::{Encounter, Metals};
 use super::tables::{Emitter, EmitterShape, Tables};
 use super::transmittance::Transmittance;
@@ -438,8 +439,8 @@ pub struct Workspace {
     pub(super) passing: Flights,
     /// By slot; of no meaning unless the run is spectral.
     pub(super) wavelengths: Vec<Wavelengths>,
-    /// By slot, a bit for each of the first emitters whose light is known where the path starts, and not to be gathered there.
-    pub(super) known: Vec<u64>,
+    /// What is known of lamps where paths start.
+    pub(super) rosters: RosterColumn,
     /// By slot, where light was last gathered; of no meaning unless emitters are chosen by importance.
     pub(super) receiving: Vec<Receiving>,
     /// By slot.

@@ -1,11 +1,10 @@
-//! The parts of a reading that a closed form gives: lights without extent and extended ones in full view at a point, and
-//! emission.
+//! The parts of a reading that a closed form gives: lights without extent at a point, and emission. [`Rosters`](super::roster::Rosters) add
+//! extended lights in full view.
 
 use steradian_kernel::{InstructionSet, RayBatch};
 
 use super::channels::counts;
-use super::shaft::View;
-use super::tables::{Emitter, EmitterShape, Tables};
+use super::tables::Tables;
 use super::transmittance::Transmittance;
 use crate::geometry::{Direction, Point};
 use crate::light::{Kind, Light, LightSample, LuminaireLight, Outlet};
@@ -127,40 +126,6 @@ fn alone(rays: &RayBatch, i: usize) -> RayBatch {
     let (mut alone, ray) = (RayBatch::default(), rays.ray(i));
     alone.push(ray.origin, ray.direction, ray.t_max);
     alone
-}
-
-/// How many emitters may be known to a meter.
-const MOST_KNOWN: usize = u64::BITS as usize;
-
-/// Whether an emitter is among those whose light is known.
-#[inline(always)]
-pub(super) fn is_known(known: u64, emitter: usize) -> bool {
-    emitter < MOST_KNOWN && known >> emitter & 1 == 1
-}
-
-/// Adds the light of extended emitters that come in full view of a point, and tells which they are.
-pub(super) fn extended(tables: &Tables<'_>, view: &View, columns: &mut [f64]) -> u64 {
-    let scene = tables.scene;
-    let count = scene.lanes().count();
-    let mut known = 0;
-    let extended = tables.emitters[..tables.extended].iter().enumerate();
-    // What hides light from everywhere may stand beyond its portal.
-    let lamps =
-        |(_, emitter): &(usize, &Emitter)| !matches!(emitter.shape, EmitterShape::Portal(_));
-    for (number, emitter) in extended.take(MOST_KNOWN).filter(lamps) {
-        let Some(share) = view.of(tables, emitter) else {
-            continue;
-        };
-        known |= 1 << number;
-        let light = &scene.lights()[emitter.light];
-        let lanes = light.power().map(|radiance| radiance * share);
-        let column = &mut columns[light.group as usize * count..][..count];
-        column
-            .iter_mut()
-            .zip(scene.channels(light, lanes))
-            .for_each(|(sum, channel)| *sum += channel);
-    }
-    known
 }
 
 /// The direction in which a receiver of scalar irradiance faces a light.

@@ -214,7 +214,9 @@ impl<'a> Meters<'a> {
             scatter::fill(&self.tracer, identity, LIGHT_BLOCK + number, uniforms);
         };
         if let Choice::ByImportance { samples } = candidates.choice {
-            for stratum in 0..samples {
+            let mut slots = paths.vertices.identity.slot.iter();
+            let knows_all = slots.all(|slot| paths.rosters.of(*slot).knows_all());
+            for stratum in 0..if knows_all { 0 } else { samples } {
                 fill(stratum, paths);
                 next_event.gather_stratum(paths, (stratum, samples));
             }

@@ -13,14 +13,16 @@
 //! sampled.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use steradian_kernel::{HitBatch, MISS, RayBatch};
 
 use super::columns::Place;
 use super::cylinder::{self, CylinderMeter};
-use super::exact::{self, is_known};
+use super::exact;
 use super::flux::FluxMeter;
 use super::interaction::hit;
+use super::roster::{Roster, Rosters};
 use super::scattering::Encounter;
 use super::shaft::View;
 use super::tables::{Model, Side, Tables};
@@ -33,13 +35,9 @@ use crate::shape::Form;
 /// What one stream samples.
 pub(super) enum Meter<'a> {
     /// A point that takes light from the hemisphere of its normal.
-    Irradiance {
-        place: Place,
-        /// A bit for each emitter whose light is known.
-        known: u64,
-    },
+    Irradiance { place: Place, roster: Arc<Roster> },
     /// A point that takes light from everywhere.
-    Scalar { place: Place, known: u64 },
+    Scalar { place: Place, roster: Arc<Roster> },
     /// A point that takes light from hemispheres of normals about an axis.
     Cylinder(CylinderMeter),
     /// The reflecting surface that a ray meets.
@@ -102,6 +100,7 @@ pub(super) struct Context<'t, 'a> {
     tables: &'t Tables<'a>,
     pub scene: &'a Scene,
     pub max_depth: u32,
+    rosters: Rosters,
     /// Columns in which no light has any power.
     pub dark: Vec<bool>,
     /// By light and channel, whether it has any power.
@@ -117,6 +116,7 @@ impl<'t, 'a> Context<'t, 'a> {
             tables,
             scene,
             max_depth,
+            rosters: Rosters::new(tables),
             dark: vec![],
             shines: vec![],
             reflected: vec![],
@@ -178,13 +178,13 @@ impl<'t, 'a> Context<'t, 'a> {
 
     /// Columns of which a point receives nothing but what is known exactly: lights without extent where they are summed, and these
     /// emitters.
-    fn closed_at(&self, known: u64) -> Vec<bool> {
+    fn closed_at(&self, known: &Roster) -> Vec<bool> {
         let emitters = self.tables.emitters.iter().enumerate();
         let mut of_emitters = vec![false; self.scene.lights().len()];
         let sums_lights = self.tables.sums_lights();
         emitters.for_each(|(number, emitter)| {
             let summed = sums_lights && emitter.shape.is_delta();
-            of_emitters[emitter.light] = summed || is_known(known, number);
+            of_emitters[emitter.light] = summed || known.knows(number);
         });
         self.columns_where(|(light, channel)| self.reflected[light][channel] || !of_emitters[light])
     }
@@ -214,11 +214,11 @@ impl<'t, 'a> Context<'t, 'a> {
 
     /// Whether a receiver can: not if nothing shines from everywhere, and no surface above its plane reflects or has light that is
     /// not known.
-    fn samples_receiver(&self, receiver: &Receiver, known: u64, closed: &[bool]) -> bool {
+    fn samples_receiver(&self, receiver: &Receiver, known: &Roster, closed: &[bool]) -> bool {
         let surfaces = self.scene.surfaces();
         let clearance = receiver.clearance.max(surfaces.clearance());
         let is_dark = |side: &Side| {
-            side.model == Model::Black && (!side.emits || is_known(known, side.emitter as usize))
+            side.model == Model::Black && (!side.emits || known.knows(side.emitter as usize))
         };
         let is_dark = |primitive: u32| {
             let part = 2 * surfaces.part_of(primitive) as usize;
@@ -231,12 +231,12 @@ impl<'t, 'a> Context<'t, 'a> {
                 && surfaces.nothing_above(plane.0, plane.1, clearance, &is_dark))
     }
 
-    /// Adds the extended lights in full view of a point, and tells which they are.
-    fn known(&self, view: &View, exact: &mut [f64]) -> u64 {
+    /// What a point knows of the extended lights; adds those in full view.
+    fn roster(&self, view: &View, exact: &mut [f64]) -> Arc<Roster> {
         if self.max_depth == 0 {
-            return 0;
+            return Arc::default();
         }
-        exact::extended(self.tables, view, exact)
+        self.rosters.at(self.tables, view, exact)
     }
 
     fn irradiance(&self, index: usize, receiver: &Receiver) -> Prepared<'a> {
@@ -248,8 +248,8 @@ impl<'t, 'a> Context<'t, 'a> {
         let (position, normal) = (receiver.position, Some(receiver.normal));
         let mut exact = exact::irradiance(self.tables, position, normal, receiver.clearance);
         let view = View::new(position, normal, receiver.clearance);
-        let known = self.known(&view, &mut exact);
-        let closed = self.closed_at(known);
+        let roster = self.roster(&view, &mut exact);
+        let closed = self.closed_at(&roster);
         Prepared {
             index,
             position: Some(position),
@@ -257,8 +257,8 @@ impl<'t, 'a> Context<'t, 'a> {
             sits_on: receiver.sits_on.clone(),
             about: None,
             meter: self
-                .samples_receiver(receiver, known, &closed)
-                .then_some(Meter::Irradiance { place, known }),
+                .samples_receiver(receiver, &roster, &closed)
+                .then_some(Meter::Irradiance { place, roster }),
             exact,
             closed,
             is_sampled: false,
@@ -272,8 +272,8 @@ impl<'t, 'a> Context<'t, 'a> {
             clearance: 0.0,
         };
         let mut exact = exact::irradiance(self.tables, point, None, 0.0);
-        let known = self.known(&View::new(point, None, 0.0), &mut exact);
-        let closed = self.closed_at(known);
+        let roster = self.roster(&View::new(point, None, 0.0), &mut exact);
+        let closed = self.closed_at(&roster);
         Prepared {
             index,
             position: Some(point),
@@ -282,7 +282,7 @@ impl<'t, 'a> Context<'t, 'a> {
             about: None,
             meter: self
                 .samples_points(&closed)
-                .then_some(Meter::Scalar { place, known }),
+                .then_some(Meter::Scalar { place, roster }),
             exact,
             closed,
             is_sampled: false,
@@ -292,7 +292,7 @@ impl<'t, 'a> Context<'t, 'a> {
     fn cylinder(&self, index: usize, cylinder: &Cylinder) -> Prepared<'a> {
         let start = cylinder.position + cylinder.axis * cylinder.clearance;
         let exact = cylinder::exact(self.tables, cylinder, start);
-        let closed = self.closed_at(0);
+        let closed = self.closed_at(&Roster::default());
         let meter = CylinderMeter::new(cylinder, self.scene.surfaces().to_kernel(start));
         Prepared {
             index,

@@ -32,6 +32,7 @@ mod plain;
 mod portals;
 mod profile;
 pub mod reflection;
+mod roster;
 mod run;
 mod scatter;
 mod scattering;

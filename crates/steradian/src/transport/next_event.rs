@@ -17,9 +17,8 @@ use glam::Vec3;
 use steradian_kernel::Work;
 
 use super::aim::Aim;
-use super::choice::{Sampled, choose};
+use super::choice::{Sampled, choose, refined};
 use super::columns::{BATCH, Place, Shadows, Vertices, Workspace};
-use super::exact::is_known;
 use super::interaction::Hit;
 use super::kept_aims::{KeptAims, Meter};
 use super::light_samples::{Drawn, LightSamples, Places};
@@ -28,6 +27,7 @@ use super::media::AIR;
 use super::panel::{Panel, SamplePanel};
 use super::path::Tracer;
 use super::profile::Stage;
+use super::roster::RosterColumn;
 use super::tables::{Candidates, Choice, EmitterShape, NO_TINT, Receiver, Tables};
 use super::towards::cone;
 use super::wide::{WIDTH, get, wide};
@@ -52,12 +52,12 @@ impl NextEvent<'_> {
         let (vertices, shadows) = (&workspace.vertices, &mut workspace.shadows);
         let numbers = [&vertices.light_u[..], &vertices.light_v[..]];
         if let Choice::ByImportance { .. } = self.candidates.choice {
-            let places = (&workspace.known[..], &mut workspace.receiving[..]);
+            let places = (&workspace.rosters, &mut workspace.receiving[..]);
             let out = (&mut workspace.aims, shadows);
             self.sample_chosen(vertices, places, numbers, (0, 1), out);
         } else {
             let out = (&mut workspace.aims, shadows);
-            self.sample_all(0, (vertices, &workspace.known), numbers, out);
+            self.sample_all(0, (vertices, &workspace.rosters), numbers, out);
         }
         self.settle(workspace);
     }
@@ -67,7 +67,7 @@ impl NextEvent<'_> {
     pub fn gather_stratum(&self, workspace: &mut Workspace, stratum: (u32, u32)) {
         workspace.shadows.reset(workspace.vertices.len());
         let numbers = [&workspace.uniforms[2][..], &workspace.uniforms[3][..]];
-        let places = (&workspace.known[..], &mut workspace.receiving[..]);
+        let places = (&workspace.rosters, &mut workspace.receiving[..]);
         let out = (&mut workspace.aims, &mut workspace.shadows);
         self.sample_chosen(&workspace.vertices, places, numbers, stratum, out);
         self.settle(workspace);
@@ -76,7 +76,7 @@ impl NextEvent<'_> {
     fn sample_chosen(
         &self,
         vertices: &Vertices,
-        (known, receiving): (&[u64], &mut [Receiving]),
+        (rosters, receiving): (&RosterColumn, &mut [Receiving]),
         numbers: [&[f32]; 2],
         stratum: (u32, u32),
         (aims, shadows): (&mut KeptAims, &mut Shadows),
@@ -91,16 +91,22 @@ impl NextEvent<'_> {
             return;
         }
         for i in 0..vertices.len() {
-            let at = self.receiving(&vertices.place(i));
-            receiving[vertices.identity.slot[i] as usize] = at;
+            let slot = vertices.identity.slot[i];
+            let roster = rosters.of(slot);
             let [u, v] = numbers.map(|column| column[i]);
-            let tables = self.tracer.tables;
-            let chosen = choose(tables, self.candidates, ([u, v], stratum), || at);
+            let chosen = if !is_surface && roster.chooses() {
+                roster.choose(refined([u, v], stratum))
+            } else {
+                let at = self.receiving(&vertices.place(i));
+                receiving[slot as usize] = at;
+                let tables = self.tracer.tables;
+                choose(tables, self.candidates, ([u, v], stratum), || at)
+            };
             let Some((sampled, u)) = chosen else { continue };
             if is_surface {
                 self.sample(i, sampled, [u, v], vertices, shadows);
             } else {
-                let meters = (vertices, known);
+                let meters = (vertices, rosters);
                 self.sample_at_meter((i, sampled), [u, v], meters, (aims, shadows));
             }
         }
@@ -146,7 +152,7 @@ impl NextEvent<'_> {
         let numbers = [&workspace.uniforms[2][..], &workspace.uniforms[3][..]];
         self.sample_all(
             emitter,
-            (&workspace.vertices, &workspace.known),
+            (&workspace.vertices, &workspace.rosters),
             numbers,
             (&mut workspace.aims, &mut workspace.shadows),
         );
@@ -156,7 +162,7 @@ impl NextEvent<'_> {
     fn sample_all(
         &self,
         number: usize,
-        (vertices, known): (&Vertices, &[u64]),
+        (vertices, rosters): (&Vertices, &RosterColumn),
         numbers: [&[f32]; 2],
         (aims, shadows): (&mut KeptAims, &mut Shadows),
     ) {
@@ -165,7 +171,7 @@ impl NextEvent<'_> {
         if self.candidates.receiver != Receiver::Surface {
             for i in 0..vertices.len() {
                 let u = [numbers[0][i], numbers[1][i]];
-                self.sample_at_meter((i, sampled), u, (vertices, known), (aims, shadows));
+                self.sample_at_meter((i, sampled), u, (vertices, rosters), (aims, shadows));
             }
             return;
         }
@@ -428,11 +434,11 @@ impl NextEvent<'_> {
         &self,
         (i, sampled): (usize, Sampled),
         u: [f32; 2],
-        (vertices, known): (&Vertices, &[u64]),
+        (vertices, rosters): (&Vertices, &RosterColumn),
         (aims, shadows): (&mut KeptAims, &mut Shadows),
     ) {
-        let slot = vertices.identity.slot[i] as usize;
-        if is_known(known[slot], sampled.number) {
+        let slot = vertices.identity.slot[i];
+        if rosters.of(slot).knows(sampled.number) {
             return;
         }
         let place = vertices.place(i);

@@ -26,7 +26,6 @@ use steradian_kernel::{InstructionSet, MISS};
 use super::aim::is_aimed_at;
 use super::appearance::site_towards;
 use super::columns::{BATCH, Flights, Luggage, Place, Vertices, Workspace};
-use super::exact::is_known;
 use super::interaction::{Hit, hit};
 use super::light_tree::Receiving;
 use super::media::AIR;
@@ -34,6 +33,7 @@ use super::next_event::NextEvent;
 use super::patterned::Patterned;
 use super::plain::ArrivePlainly;
 use super::profile::Stage;
+use super::roster::Roster;
 use super::scatter;
 use super::scattering::Encounter;
 use super::tables::{
@@ -69,8 +69,7 @@ impl Tracer<'_> {
         debug_assert!(slots <= BATCH);
         workspace.gathered.clear();
         workspace.gathered.resize(self.columns() * BATCH, 0.0);
-        workspace.known.clear();
-        workspace.known.resize(slots, 0);
+        workspace.rosters.reset(slots);
         workspace.wavelengths.clear();
         workspace.wavelengths.resize(slots, Wavelengths::default());
         workspace.receiving.clear();
@@ -162,7 +161,7 @@ impl Tracer<'_> {
                     &hit,
                     workspace.flights.pdf[i],
                     (candidates, &workspace.receiving[slot as usize]),
-                    workspace.known[slot as usize],
+                    workspace.rosters.of(slot),
                 ) * tables.factor_of(side, hit.viewer);
                 let radiance = tables.lanes_at(&side.radiance, wavelengths, || tables.site(&hit));
                 self.add(&mut workspace.gathered, side.group, slot, |lane| {
@@ -351,20 +350,20 @@ impl Tracer<'_> {
 
     /// Power-heuristic weight of emission that a sampled direction met.
     ///
-    /// It is 0 of light that is `known` at the meter where the path started, or that was gathered there by aiming at it.
+    /// It is 0 of light that the `roster` knows at the meter where the path started, or that was gathered there by aiming at it.
     fn emission_weight(
         &self,
         side: &Side,
         hit: &Hit,
         pdf: f32,
         (candidates, at): (Candidates, &Receiving),
-        known: u64,
+        roster: &Roster,
     ) -> f32 {
         if side.emitter == NO_EMITTER {
             return 1.0;
         }
         if candidates.receiver != Receiver::Surface
-            && (is_known(known, side.emitter as usize)
+            && (roster.knows(side.emitter as usize)
                 || is_aimed_at(
                     self.tables,
                     &self.tables.emitters[side.emitter as usize],

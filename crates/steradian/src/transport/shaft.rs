@@ -21,7 +21,7 @@
 
 use std::f64::consts::PI;
 
-use super::tables::{Emitter, Facet, Outline, Tables, circumscribed};
+use super::tables::{Facet, Tables, circumscribed};
 use super::towards::clearance;
 use crate::geometry::{Direction, Frame, Point, Vector, configuration_factor, solid_angle};
 use crate::quantity::Length;
@@ -47,59 +47,21 @@ impl View {
         }
     }
 
-    /// ∫ cosθ dω over an emitter, or ∫ dω; none if something may hide a part of it, or no closed form is known.
-    pub fn of(&self, tables: &Tables<'_>, emitter: &Emitter) -> Option<f64> {
-        match emitter.outline.as_ref()? {
-            Outline::Facets(facets) => {
-                let share = |facet: &Facet| {
-                    self.of_flat(tables, facet, emitter.two_sided, || {
-                        self.integral(&facet.corners)
-                    })
-                };
-                facets.iter().map(share).sum()
-            }
-            Outline::Disc(disc, around) => self.of_flat(tables, around, emitter.two_sided, || {
-                self.integral_of_disc(disc, disc.radius)
-                    - self.integral_of_disc(disc, disc.inner_radius)
-            }),
-            Outline::Sphere { center, radius } => self.of_sphere(tables, emitter, *center, *radius),
-        }
-    }
-
-    fn of_flat(
-        &self,
-        tables: &Tables<'_>,
-        facet: &Facet,
-        two_sided: bool,
-        integral: impl FnOnce() -> f64,
-    ) -> Option<f64> {
-        if !self.may_see(facet, two_sided) {
-            return Some(0.0);
-        }
+    /// ∫ cosθ dω over a whole facet, or ∫ dω.
+    pub fn of_facet(&self, facet: &Facet) -> f64 {
         let corners = &facet.corners;
-        let lengths = corners.iter().map(|corner| (*corner - self.start).length());
-        let size = 2.0 * lengths.fold(0.0, f64::max);
-        let kernel = |corner: &Point| tables.scene.surfaces().to_kernel(*corner);
-        let off = corners
-            .iter()
-            .map(|corner| clearance(kernel(corner), size as f32));
-        let off = f64::from(off.fold(0.0, f32::max));
-        let towards = facet.normal.to_vector() * -facet.height_of(self.start).signum();
-        let mut shaft = self.shaft();
-        shaft.around(corners);
-        shaft.end(towards, corners[0] - towards * off);
-        let own = |primitive: u32| facet.primitives.contains(&primitive);
-        shaft.is_clear(tables, &own).then(integral)
-    }
-
-    fn integral(&self, corners: &[Point]) -> f64 {
         match self.normal {
             Some(normal) => PI * configuration_factor::of_polygon(self.position, normal, corners),
             None => solid_angle::of_polygon(self.position, corners).to_steradians(),
         }
     }
 
-    fn integral_of_disc(&self, disc: &Disc, radius: f64) -> f64 {
+    /// The same over a disc or ring.
+    pub fn of_disc(&self, disc: &Disc) -> f64 {
+        self.within(disc, disc.radius) - self.within(disc, disc.inner_radius)
+    }
+
+    fn within(&self, disc: &Disc, radius: f64) -> f64 {
         let (position, radius) = (self.position, Length::from_metres(radius));
         let (center, axis) = (disc.center, disc.normal);
         match self.normal {
@@ -110,39 +72,19 @@ impl View {
         }
     }
 
-    fn of_sphere(
-        &self,
-        tables: &Tables<'_>,
-        emitter: &Emitter,
-        center: Point,
-        radius: f64,
-    ) -> Option<f64> {
-        let axis = center - self.start;
-        let distance = axis.length();
-        if self
-            .normal
-            .is_some_and(|normal| normal.dot(axis) <= -radius)
-        {
-            return Some(0.0);
-        }
-        let (towards, sine) = (Direction::new(axis).ok()?, radius / distance);
-        if sine >= 1.0 || (self.position - center).length() <= radius {
-            return None;
-        }
-        let mut shaft = self.shaft();
-        shaft.around(&pyramid(self.start, towards, sine));
-        let reach = distance * (1.0 - sine) * (1.0 + sine);
-        shaft.end(towards.to_vector(), self.start + towards * reach);
-        let first = tables.scene.surfaces().first_primitive(emitter.surface?);
+    /// The same over a sphere.
+    pub fn of_sphere(&self, center: Point, radius: f64) -> f64 {
         let (position, length) = (self.position, Length::from_metres(radius));
-        shaft
-            .is_clear(tables, &|primitive| primitive == first)
-            .then(|| match self.normal {
-                Some(normal) => {
-                    PI * configuration_factor::of_sphere(position, normal, center, length)
-                }
-                None => solid_angle::of_sphere(position, center, length).to_steradians(),
-            })
+        match self.normal {
+            Some(normal) => PI * configuration_factor::of_sphere(position, normal, center, length),
+            None => solid_angle::of_sphere(position, center, length).to_steradians(),
+        }
+    }
+
+    /// Whether a sphere reaches above the horizon.
+    pub fn may_see_sphere(&self, center: Point, radius: f64) -> bool {
+        let above = |normal: Direction| normal.dot(center - self.start) > -radius;
+        self.normal.is_none_or(above)
     }
 
     /// Whether a facet shines to where the rays start, and reaches above their horizon.
@@ -153,15 +95,23 @@ impl View {
         facet.faces(self.start, two_sided) && self.normal.is_none_or(&mut reaches)
     }
 
-    fn shaft(&self) -> Shaft {
-        let mut shaft = Shaft {
-            start: self.start,
-            half_spaces: vec![],
-        };
-        if let Some(normal) = self.normal {
-            shaft.end(-normal.to_vector(), self.start);
-        }
-        shaft
+    /// How far off their plane rays to some corners end: γ(8) of coordinates and of twice their length.
+    pub fn clearance(&self, tables: &Tables<'_>, corners: &[Point]) -> f64 {
+        let lengths = corners.iter().map(|corner| (*corner - self.start).length());
+        let size = 2.0 * lengths.fold(0.0, f64::max);
+        let kernel = |corner: &Point| tables.scene.surfaces().to_kernel(*corner);
+        let off = corners
+            .iter()
+            .map(|corner| clearance(kernel(corner), size as f32));
+        f64::from(off.fold(0.0, f32::max))
+    }
+
+    /// No more than how far off a plane rays end, wherever they do.
+    pub fn least_clearance(&self, facet: &Facet) -> f64 {
+        f64::from(clearance(
+            [0.0; 3],
+            facet.height_of(self.start).abs() as f32,
+        ))
     }
 }
 
@@ -178,21 +128,62 @@ fn pyramid(start: Point, axis: Direction, sine: f64) -> Vec<Point> {
     circumscribed().map(corner).collect()
 }
 
-/// A convex region that begins at a point.
-struct Shaft {
-    start: Point,
-    /// Outward normal, not of unit length, and a point of the plane.
-    half_spaces: Vec<(Vector, Point)>,
+/// A convex region that begins at a point: half-spaces n · x ≤ d with `[n_x, n_y, n_z, d]` in kernel coordinates, n not of unit length.
+#[derive(Default)]
+pub(super) struct Shaft {
+    half_spaces: Vec<[f64; 4]>,
 }
 
 impl Shaft {
+    pub fn half_spaces(&self) -> &[[f64; 4]] {
+        &self.half_spaces
+    }
+
+    /// Becomes that to a facet, less what is within a distance of its plane.
+    pub fn to_facet(&mut self, tables: &Tables<'_>, view: &View, facet: &Facet, off: f64) {
+        let origin = tables.scene.surfaces().origin();
+        self.begin(origin, view);
+        self.around(origin, view.start, &facet.corners);
+        let towards = facet.normal.to_vector() * -facet.height_of(view.start).signum();
+        self.end(origin, towards, facet.corners[0] - towards * off);
+    }
+
+    /// Becomes that to a sphere; false from within.
+    pub fn to_sphere(
+        &mut self,
+        tables: &Tables<'_>,
+        view: &View,
+        (center, radius): (Point, f64),
+    ) -> bool {
+        let (origin, axis) = (tables.scene.surfaces().origin(), center - view.start);
+        let distance = axis.length();
+        let (Ok(towards), sine) = (Direction::new(axis), radius / distance) else {
+            return false;
+        };
+        if sine >= 1.0 || (view.position - center).length() <= radius {
+            return false;
+        }
+        self.begin(origin, view);
+        self.around(origin, view.start, &pyramid(view.start, towards, sine));
+        let reach = distance * (1.0 - sine) * (1.0 + sine);
+        let touched = view.start + towards * reach;
+        self.end(origin, towards.to_vector(), touched);
+        true
+    }
+
+    fn begin(&mut self, origin: Point, view: &View) {
+        self.half_spaces.clear();
+        if let Some(normal) = view.normal {
+            self.end(origin, -normal.to_vector(), view.start);
+        }
+    }
+
     /// Adds the sides of the pyramid over a convex outline.
-    fn around(&mut self, corners: &[Point]) {
-        let middle = corners
-            .iter()
-            .fold(Vector::ZERO, |sum, c| sum + (*c - self.start));
+    fn around(&mut self, origin: Point, start: Point, corners: &[Point]) {
+        let spans = corners.iter().map(|corner| *corner - start);
+        let middle = spans.fold(Vector::ZERO, |sum, span| sum + span);
         for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-            let normal = (*a - self.start).cross(*b - *a);
+            let normal = (*a - start).cross(*b - *a);
             let outwards = if normal.dot(middle) > 0.0 {
                 -normal
             } else {
@@ -200,21 +191,14 @@ impl Shaft {
             };
             // A side that is no plane bounds nothing.
             if let Ok(outwards) = Direction::new(outwards) {
-                self.half_spaces.push((outwards.to_vector(), self.start));
+                self.end(origin, outwards.to_vector(), start);
             }
         }
     }
 
     /// Ends the region at a plane.
-    fn end(&mut self, outwards: Vector, point: Point) {
-        self.half_spaces.push((outwards, point));
-    }
-
-    fn is_clear(&self, tables: &Tables<'_>, ignore: &dyn Fn(u32) -> bool) -> bool {
-        let surfaces = tables.scene.surfaces();
-        let half_space =
-            |(n, point): &(Vector, Point)| [n.x, n.y, n.z, n.dot(*point - surfaces.origin())];
-        let half_spaces: Vec<_> = self.half_spaces.iter().map(half_space).collect();
-        surfaces.accelerator().region_is_clear(&half_spaces, ignore)
+    fn end(&mut self, origin: Point, n: Vector, point: Point) {
+        self.half_spaces
+            .push([n.x, n.y, n.z, n.dot(point - origin)]);
     }
 }

@@ -24,13 +24,13 @@ impl Meters<'_> {
         }
         let first = (slot as u32, run.key, run.first);
         match &stream.meter {
-            Meter::Irradiance { place, known } => {
-                paths.known[slot..][..run.count as usize].fill(*known);
+            Meter::Irradiance { place, roster } => {
+                paths.rosters.set(slot..slot + run.count as usize, roster);
                 let response = [FRAC_1_PI; 4];
                 paths.vertices.repeat(place, response, first, run.count);
             }
-            Meter::Scalar { place, known } => {
-                paths.known[slot..][..run.count as usize].fill(*known);
+            Meter::Scalar { place, roster } => {
+                paths.rosters.set(slot..slot + run.count as usize, roster);
                 let response = [0.25 * FRAC_1_PI; 4];
                 paths.vertices.repeat(place, response, first, run.count);
             }

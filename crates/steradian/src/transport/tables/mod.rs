@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 pub(super) use emitters::mean;
 use emitters::{emitters, of_light, strengths, weigh_by_power};
-pub(super) use outlines::{Facet, Outline, circumscribed};
+pub(super) use outlines::{Facet, MOST_FACETS, Outline, circumscribed};
 use sides::{Tints, emitting, metal};
 
 use super::light_tree::{Receiving, Selection};
@@ -235,6 +235,8 @@ pub(super) struct Tables<'a> {
     pub emitters: Vec<Emitter>,
     /// Number of emitters with extent; they come first.
     pub extended: usize,
+    /// Radiance, intensity or irradiance of each emitter in watts.
+    pub strengths: Vec<f64>,
     /// How one of many is chosen: of all emitters, and of those with extent.
     selections: [Option<Selection>; 2],
     /// What comes from everywhere.
@@ -315,6 +317,7 @@ impl<'a> Tables<'a> {
             sides,
             emitters,
             extended,
+            strengths,
             selections,
             environment,
             responses: scene.lanes().responses().iter().filter_map(bake).collect(),

@@ -9,7 +9,7 @@ use crate::scene::Scene;
 use crate::shape::{Disc, Form, TriangleMesh};
 
 /// Emitters of more facets are sampled by area: each facet costs a closed form wherever the emitter is sampled.
-const MOST_FACETS: usize = 16;
+pub(in crate::transport) const MOST_FACETS: usize = 16;
 
 /// An emitter of the same radiance everywhere.
 #[derive(Clone, Debug)]
