@@ -200,7 +200,7 @@ fn a_sheet_that_lets_light_pass_hides_nothing() {
 /// Lamps that no point aims at, and light from everywhere: chosen down the tree, and what is known is left out there.
 #[test]
 fn lamps_of_all_kinds_go_together() {
-    let around = |mut shapes: Vec<ShapeDescription>, has_last| {
+    let around = |mut shapes: Vec<ShapeDescription>, has_last: bool| {
         shapes.push(screen());
         let everywhere = has_last.then(|| environment(2.0));
         scene([], shapes, everywhere)

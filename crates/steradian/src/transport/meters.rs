@@ -8,7 +8,7 @@
 //! | flux | uniform over the surface, then cosθ/π | πA |
 //! | radiance | the surface that the ray meets | 1 |
 //!
-//! A point sees up to 1024 lights without extent exactly: E = Σ I cosθ/r² · V in f64, with no sampling error; so it does those extended lights
+//! A point sees up to 16 384 lights without extent exactly: E = Σ I cosθ/r² · V in f64, with no sampling error; so it does those extended lights
 //! that nothing [may hide](super::shaft). A ray sees the emission of the surface it meets exactly. What surfaces reflect is
 //! sampled.
 

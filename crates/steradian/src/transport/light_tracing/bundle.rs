@@ -326,6 +326,7 @@ mod tests {
             shape: None,
             ball: Some(ball),
             panel: Some(panel),
+            plane: None,
             has_planes: false,
         };
         let places = (Point::new(0.0, 0.5, 0.05), Point::new(0.001, 0.5, 0.05));

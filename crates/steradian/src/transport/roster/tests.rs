@@ -4,7 +4,6 @@ use steradian_kernel::{InstructionSet, RayBatch};
 
 use super::super::aim::{Aim, Scratch};
 use super::super::columns::Place;
-use super::super::tables::Outline;
 use super::super::towards::towards;
 use super::*;
 use crate::geometry::{Direction, Point, Transform, Vector};
