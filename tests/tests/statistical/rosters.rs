@@ -203,7 +203,7 @@ fn lamps_of_all_kinds_go_together() {
     let around = |mut shapes: Vec<ShapeDescription>, has_last: bool| {
         shapes.push(screen());
         let everywhere = has_last.then(|| environment(2.0));
-        scene([], shapes, everywhere)
+        scene([], shapes, everywhere.into_iter().collect::<Vec<_>>())
     };
     let count = PANELS + 10;
     assert_all_is_the_sum_of_each_ten(count, around, || irradiance_at(places()));

@@ -120,7 +120,7 @@ fn random_scene(numbers: &mut Numbers) -> Scene {
             response: None,
             bins: None,
             kind: SensorKind::ScalarIrradiance {
-                points: vec![Point::ORIGIN],
+                points: vec![Point::new(0.0, 0.0, -20.0)],
             },
         }],
         ..SceneDescription::default()
