@@ -49,7 +49,7 @@ fn held(scene: &SceneDescription, stop: Stopping, seeds: u64, samples: u64) -> V
     let mut part = vec![0.0; truth.len()];
     for seed in 0..seeds {
         for (i, (reading, truth)) in run(scene, stop, seed).iter().zip(&truth).enumerate() {
-            let [low, high] = reading.estimate.interval.unwrap();
+            let [low, high] = reading.estimate.interval.expect("an interval");
             held[i] += u32::from((low..=high).contains(&truth.estimate.value));
             part[i] += truth.estimate.std_error / reading.estimate.std_error / seeds as f64;
         }

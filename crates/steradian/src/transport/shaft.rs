@@ -140,7 +140,7 @@ impl Shaft {
     }
 
     /// Becomes that to a facet, less what is within a distance of its plane.
-    pub fn to_facet(&mut self, tables: &Tables<'_>, view: &View, facet: &Facet, off: f64) {
+    pub fn enclose_facet(&mut self, tables: &Tables<'_>, view: &View, facet: &Facet, off: f64) {
         let origin = tables.scene.surfaces().origin();
         self.begin(origin, view);
         self.around(origin, view.start, &facet.corners);
@@ -149,7 +149,7 @@ impl Shaft {
     }
 
     /// Becomes that to a sphere; false from within.
-    pub fn to_sphere(
+    pub fn enclose_sphere(
         &mut self,
         tables: &Tables<'_>,
         view: &View,

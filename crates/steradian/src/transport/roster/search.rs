@@ -74,7 +74,7 @@ impl<'s, 't> Search<'s, 't> {
             None => self.view.clearance(self.tables, &node.outline.corners),
         };
         let shaft = &mut self.shaft;
-        shaft.to_facet(self.tables, self.view, &node.outline, off);
+        shaft.enclose_facet(self.tables, self.view, &node.outline, off);
         let first = self.obstacles.len();
         let own = node.outline.primitives.clone();
         let are_all = self.collect(above, &|primitive| own.contains(&primitive));
@@ -86,7 +86,7 @@ impl<'s, 't> Search<'s, 't> {
         {
             self.mark(node, Seen::Not);
         } else if let Some(below) = node.below {
-            let known = are_all.then(|| first..self.obstacles.len());
+            let known = are_all.then_some(first..self.obstacles.len());
             let nodes = &self.groups.nodes;
             self.look(&nodes[below], known.clone());
             self.look(&nodes[below + 1], known);
@@ -132,7 +132,7 @@ impl<'s, 't> Search<'s, 't> {
             return;
         }
         let shaft = &mut self.shaft;
-        if !shaft.to_sphere(self.tables, self.view, (center, radius)) {
+        if !shaft.enclose_sphere(self.tables, self.view, (center, radius)) {
             return;
         }
         let own = self.tables.scene.surfaces().first_primitive(shape);
