@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
+use steradian::estimation::Estimate;
 use steradian::geometry::Point;
-use steradian::scene::description::{FluxOf, SceneDescription};
+use steradian::scene::description::{FluxOf, SceneDescription, ShapeDescription};
 use steradian_tests::measuring::{measured, reading, rel_error, samples};
 use steradian_tests::scenes::*;
-use steradian_tests::{assert_agrees, assert_close};
+use steradian_tests::{Certainty, assert_agrees, assert_close, certainty};
 
 const SIZE: Point = Point::new(2.0, 3.0, 2.5);
 const AREA: f64 = 2.0 * (2.0 * 3.0 + 2.0 * 2.5 + 3.0 * 2.5);
@@ -148,18 +149,29 @@ fn constant_radiance_stays_constant_over_a_hundred_million_samples() {
     constant(100_000_000);
 }
 
-/// A meter that the light cannot reach: no interval, no convergence, no claim.
-#[test]
-fn darkness_is_never_converged() {
-    let screen = square(50.0, 0.5);
+/// A meter below a panel and what hides it.
+fn hidden_by(screen: ShapeDescription) -> Estimate {
     let panel = square_facing_down(1.0, 1.0).emitting(radiance(1.0));
     let mut scene = scene([], [screen, panel], []);
     scene
         .sensors
         .push(sensor("hidden", irradiance_at([(p(0.1, 0.2, 0.0), UP)])));
-    let hidden = reading(&measured(&scene, &rel_error(0.01)), "hidden").estimate;
+    reading(&measured(&scene, &rel_error(0.01)), "hidden").estimate
+}
+
+/// A meter that the light cannot reach, which nobody has proven of a disc: no interval, no convergence, no claim.
+#[test]
+fn darkness_is_never_converged() {
+    let hidden = hidden_by(disc(p(0.0, 0.0, 0.5), UP, 50.0));
     assert_eq!(
         (hidden.value, hidden.interval, hidden.converged),
         (0.0, None, false)
     );
+}
+
+#[test]
+fn darkness_behind_a_rectangle_is_proven() {
+    let hidden = hidden_by(square(50.0, 0.5));
+    assert_eq!((hidden.value, hidden.converged), (0.0, true));
+    assert_eq!(certainty(&hidden), Certainty::ClosedForm);
 }
